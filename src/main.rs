@@ -1,51 +1,15 @@
-//! The demo: `cargo run -- arma`. Reads the arguments, runs the command, and returns its exit code.
+//! The program: `cargo run -- arma`. Hands the course's pipeline to the commands.
 
-/// Prints a line of results. A reader that closes standard output early, such as `| head`, is no failure.
-macro_rules! say {
-    ($($line:tt)*) => {{
-        use std::io::Write;
-        let _ = writeln!(std::io::stdout(), $($line)*);
-    }};
-}
-
-mod demo {
-    pub mod batch;
-    pub mod build;
-    pub mod checkpoints;
-    pub mod cli;
-    pub mod data;
-    pub mod end;
-    pub mod engine;
-    pub mod explain;
-    pub mod headless;
-    pub mod list;
-    pub mod mesh;
-    pub mod missing;
-    pub mod pictures;
-    pub mod probes;
-    pub mod progress;
-    pub mod results;
-    pub mod run;
-    pub mod signals;
-    pub mod study;
-    pub mod window;
-}
-
+use std::path::Path;
 use std::process::ExitCode;
 
-use clap::Parser;
-use demo::cli::{Arguments, Command};
+use fem_cli::Course;
+use finite_elements_3d::assignment_setup::AssignmentSetup;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let result = match &arguments.command {
-        Some(Command::List) => demo::list::print_scenes(),
-        Some(Command::Mesh { action }) => action.run(),
-        Some(Command::Study(study)) => study.run(),
-        None => demo::missing::caught(|| demo::run::run(&arguments.run)),
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(end) => end.report(),
-    }
+    fem_cli::run(&Course {
+        build: |scene, body| Ok(Box::new(AssignmentSetup::new(scene, body)?)),
+        folder: Path::new(env!("CARGO_MANIFEST_DIR")),
+        first_page: include_str!("../include-docs/course.md"),
+    })
 }

@@ -19,7 +19,7 @@ impl AssignmentSetup {
     /// Builds the parts that the scene names. Returns an error for what only the engine can do.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
         check_pipeline(scene)?;
-        if body.shape.mesh.is_flat() {
+        if body.shape.mesh.dimension() == 2 {
             return Err(
                 scene.refuse("mesh", "is flat, which the course's pipeline is not; write pipeline = \"engine\"")
             );
@@ -132,10 +132,9 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("prescribed", !scene.prescribed.is_empty()),
         ("initial_velocity", !scene.initial_velocity.is_empty()),
     ];
-    match engine_only.iter().find(|(_, present)| *present) {
-        Some((field, _)) => {
-            Err(scene.refuse(field, "belongs to the engine; the course's pipeline does without, remove it"))
-        }
+    let field = scene.fields().tables().next();
+    match engine_only.iter().find(|(_, present)| *present).map(|(field, _)| *field).or(field) {
+        Some(field) => Err(scene.refuse(field, "belongs to the engine; the course's pipeline does without, remove it")),
         None => Ok(()),
     }
 }

@@ -21,7 +21,7 @@ fn bodies(setup: &AssignmentSetup) -> Vec<Part> {
     let (nodes, elements) = (mesh.vertices().len(), mesh.elements());
     let fixed = nodes - setup.q.len() / 3;
     vec![
-        Part::mesh(nodes, elements, mesh.kind(), 24 * nodes + 40 * elements),
+        Part::mesh(nodes, elements, mesh.element().name, 24 * nodes + 40 * elements),
         Part::built("mass", format!("consistent, {} entries", setup.M.nnz()), bytes(&setup.M), NO_WORK),
         match setup.gravity {
             Some(_) => Part::built("gravity", "[gravity]: the weight of every node", 8 * setup.weight.len(), NO_WORK),

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use fem_model::Integrator;
 use fem_model::simulation::{
-    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation,
+    Cause, Checkpoint, Click, Counters, Energies, Failure, Interactive, Parameter, Part, Pull, Shape, Simulation,
+    Undiagnosed,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -131,6 +132,30 @@ impl Simulation for AssignmentSetup {
         self.integrator.name()
     }
 
+    fn display_vertices_outside(&self) -> usize {
+        let is_outside = |weights: &[f64]| weights.iter().any(|&weight| weight < -1e-6);
+        self.skinning.as_ref().map_or(0, |N| N.row_iter().filter(|row| is_outside(row.values())).count())
+    }
+
+    fn nodal_forces(&self) -> Option<DVector<f64>> {
+        Some(self.force_on_nodes(&self.positions(), &self.springs(self.time)))
+    }
+
+    fn counters(&self) -> Counters {
+        let solver = self.solver.borrow();
+        Counters {
+            factorizations: solver.factorizations,
+            symbolic_factorizations: solver.symbolic_factorizations,
+            ..self.profile.counters()
+        }
+    }
+
+    fn parts(&self) -> Vec<Part> {
+        explain::parts(self)
+    }
+}
+
+impl Interactive for AssignmentSetup {
     fn next_integrator(&mut self) -> &'static str {
         self.integrator = self.integrator.next_in(&INTEGRATORS);
         self.integrator.name()
@@ -174,29 +199,9 @@ impl Simulation for AssignmentSetup {
     fn pull(&mut self, pull: Option<Pull>) {
         self.interaction.set_pull(pull);
     }
-
-    fn display_vertices_outside(&self) -> usize {
-        let is_outside = |weights: &[f64]| weights.iter().any(|&weight| weight < -1e-6);
-        self.skinning.as_ref().map_or(0, |N| N.row_iter().filter(|row| is_outside(row.values())).count())
-    }
-
-    fn nodal_forces(&self) -> Option<DVector<f64>> {
-        Some(self.force_on_nodes(&self.positions(), &self.springs(self.time)))
-    }
-
-    fn counters(&self) -> Counters {
-        let solver = self.solver.borrow();
-        Counters {
-            factorizations: solver.factorizations,
-            symbolic_factorizations: solver.symbolic_factorizations,
-            ..self.profile.counters()
-        }
-    }
-
-    fn parts(&self) -> Vec<Part> {
-        explain::parts(self)
-    }
 }
+
+impl Undiagnosed for AssignmentSetup {}
 
 impl AssignmentSetup {
     fn deformation_gradient(&self, x: &DVector<f64>, element: &[usize; 4]) -> Matrix3<f64> {

@@ -1,6 +1,6 @@
 //! Interaction with a running simulation: reset, parameters, integrators, clicks.
 
-use fem_model::simulation::{Click, Pull, Simulation};
+use fem_model::simulation::{Click, Interactive, Pull, Simulation};
 use nalgebra::{Matrix4, Perspective3, Point3, Vector3, Vector4};
 
 use crate::program::course_scenes;

@@ -3,7 +3,7 @@
 //! the line search of implicit Euler survives.
 
 use fem_model::Integrator;
-use fem_model::simulation::{Pull, Simulation};
+use fem_model::simulation::{Interactive, Pull, Simulation};
 use nalgebra::Vector3;
 
 use crate::program::{Desk, assert_names, assert_one_message, data, numbers};

@@ -1,6 +1,6 @@
 //! Fixed nodes, the drag of a scene, and the pull of the mouse.
 
-use fem_model::simulation::{Pull, Simulation};
+use fem_model::simulation::{Interactive, Pull, Simulation};
 use fem_scene::{Pipeline, body};
 use nalgebra::{DVector, Vector3};
 

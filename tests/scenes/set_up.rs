@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Shape, Simulation};
 use fem_model::{Integrator, Preconditioner, SolverKind};
 use fem_scene::tables::SolverTable;
 use fem_scene::{Scene, output};
 use fem_viewer::scene_edits::{self, Force};
-use fem_viewer::{Builder, Change, Editing, Motion, SceneEditor};
+use fem_viewer::{Change, Editing, Motion, SceneEditor};
 use nalgebra::Vector3;
 use serde_json::Value;
 
@@ -61,7 +61,7 @@ impl Window {
             fem_engine::simulator::build(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
         };
         let simulation = build(&scene).unwrap();
-        let builder = Builder::new(move |scene, _| build(scene));
+        let builder = std::sync::Arc::new(move |scene: &Scene, _: Option<&Shape>| build(scene));
         let editing = Editing { scene, objects: Vec::new(), data: "no data".into(), builder };
         Self { editor: SceneEditor::new(editing, Vector3::z()), simulation }
     }
@@ -74,11 +74,7 @@ impl Window {
     fn end(&self, x: f64) -> Vec<Vec<usize>> {
         let shape = self.simulation.shape();
         let is_there = |face: &&Vec<usize>| face.iter().all(|&node| shape.mesh.vertices()[node].x > x - 1e-9);
-        let faces: Vec<Vec<usize>> = match shape.mesh.is_flat() {
-            true => shape.mesh.outline(),
-            false => shape.boundary.iter().map(|face| face.to_vec()).collect(),
-        };
-        faces.iter().filter(is_there).cloned().collect()
+        shape.faces().iter().filter(is_there).cloned().collect()
     }
 
     fn load(&mut self, x: f64, force: Force) -> Motion {
@@ -109,12 +105,10 @@ impl Window {
 }
 
 fn solver(kind: SolverKind, preconditioner: Option<Preconditioner>) -> Change {
-    Change::Edit(scene_edits::solver(Some(&SolverTable {
-        kind,
-        tolerance: Some(1e-10),
-        preconditioner,
-        precision: None,
-    })))
+    Change::Edit(scene_edits::of_method(
+        "solver",
+        Some(&SolverTable { kind, tolerance: Some(1e-10), preconditioner, precision: None }),
+    ))
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Unusual scenes that must work.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Interactive, Simulation};
 
 use crate::program::{Desk, assert_names};
 use crate::scene_text::{CUBE, INTEGRATORS, build_with, edit, without};

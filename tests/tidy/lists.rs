@@ -1,7 +1,7 @@
 //! Lists that must stand in several places by their nature agree with each other.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use grader::submission::NAMES;
 
@@ -72,4 +72,40 @@ fn every_folder_of_data_is_in_provenance_md() {
     // Scenes are our own text.
     let missing = names.iter().filter(|name| *name != "scenes" && !text.contains(&format!("{name}/")));
     assert_none(missing.map(|name| format!("data/PROVENANCE.md: tell where {name}/ is from, and its terms")).collect());
+}
+
+/// The places that are compiled for elements of so many nodes.
+const DISPATCH: [&str; 4] = [
+    "crates/model/src/body_mesh.rs",
+    "crates/elements/src/solids/any_elements.rs",
+    "crates/engine/src/integrators/descent/groups.rs",
+    "crates/engine/src/integrators/projection/constraints.rs",
+];
+
+#[test]
+fn every_file_of_an_element_is_in_their_list_and_no_other_place_asks_which_one_a_body_has() {
+    let list = read("crates/model/src/element/mod.rs");
+    let mut problems = Vec::new();
+    for path in files("rs").iter().filter(|path| path.starts_with("crates/model/src/element")) {
+        let name = stem(path);
+        let is_listed = list.contains(&format!("&{name}::{}", name.to_uppercase()));
+        if !(is_listed || ["mod", "shape_function", "tests"].contains(&&*name)) {
+            problems.push(format!("{}: add the element to Element::ALL", path.display()));
+        }
+    }
+    let is_product = |path: &&PathBuf| {
+        !path.components().any(|part| ["tests", "benches"].iter().any(|name| part.as_os_str() == *name))
+    };
+    for path in files("rs").iter().filter(is_product).filter(|path| !path.ends_with("tests.rs")) {
+        let is_dispatch = DISPATCH.iter().any(|place| path == Path::new(place));
+        let asks = ["mesh.arrays", "element().name ==", "element().nodes() =="];
+        let text = read(path);
+        for (number, line) in text.lines().enumerate().filter(|_| !is_dispatch) {
+            if asks.iter().any(|question| line.contains(question)) {
+                let place = format!("{}, line {}", path.display(), number + 1);
+                problems.push(format!("{place}: asks for a kind of element; ask for a fact of `Element`"));
+            }
+        }
+    }
+    assert_none(problems);
 }

@@ -2,6 +2,7 @@
 //!
 //! Needs no feature: `cargo test --no-default-features --test tidy`. Every message ends with what to do.
 
+mod additions;
 mod attacks;
 mod book;
 mod dependencies;

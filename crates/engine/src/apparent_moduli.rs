@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use fem_model::{Body, DirichletCondition};
+use fem_model::{Body, DirichletCondition, ForceFields};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::forces::{HessianKind, mass_spring};
@@ -45,9 +45,9 @@ pub fn apparent_moduli(body: &Body) -> Result<Option<ApparentModuli>, String> {
     if !body.material.is_mass_spring() {
         return Ok(None);
     }
-    let is_flat = body.shape.mesh.is_flat();
+    let dimension = body.shape.mesh.dimension();
     let system = System::<f64>::new(with_fixed_boundary(body), None, choice(body.shape.mesh.vertices().len()));
-    let strains = strains(is_flat);
+    let strains = strains(dimension);
     let moved = relaxed(&system, &strains)?;
     let volume: f64 = body.shape.mesh.volumes().iter().sum();
     let undeformed = vec![[0.0; 3]; system.nodes()];
@@ -65,7 +65,8 @@ pub fn apparent_moduli(body: &Body) -> Result<Option<ApparentModuli>, String> {
         young,
         poisson,
         young_of_directions: young_of_directions(&stiffness)?,
-        affine_young: shear * if is_flat { 8.0 / 3.0 } else { 2.5 },
+        // E = 2 G (1 + ν), and Cauchy's relations give ν = 1/(d + 1) in d dimensions.
+        affine_young: shear * ((2 * (dimension + 2)) as f64 / (dimension + 1) as f64),
         inside: system.free(),
     }))
 }
@@ -73,12 +74,8 @@ pub fn apparent_moduli(body: &Body) -> Result<Option<ApparentModuli>, String> {
 /// The springs alone, with all nodes of the boundary fixed.
 fn with_fixed_boundary(body: &Body) -> Body {
     let mesh = &body.shape.mesh;
-    let outline: Vec<usize> = match mesh.is_flat() {
-        true => mesh.outline().into_iter().flatten().collect(),
-        false => body.shape.boundary.iter().flatten().copied().collect(),
-    };
     let mut is_outside = vec![false; mesh.vertices().len()];
-    outline.into_iter().for_each(|node| is_outside[node] = true);
+    body.shape.faces().into_iter().flatten().for_each(|node| is_outside[node] = true);
     let boundary = DirichletCondition {
         name: "boundary".to_owned(),
         nodes: (0..is_outside.len()).filter(|&node| is_outside[node]).collect(),
@@ -94,6 +91,7 @@ fn with_fixed_boundary(body: &Body) -> Body {
         tractions: Vec::new(),
         nodal_forces: Vec::new(),
         pressures: Vec::new(),
+        fields: ForceFields::default(),
         springs: Vec::new(),
         contact: None,
         drag: None,
@@ -110,16 +108,15 @@ fn choice(nodes: usize) -> SolverChoice {
 }
 
 /// The displacement gradients of strains of one unit each, in Voigt's order: xx, yy, zz, yz, xz, xy; xx, yy, xy in the plane.
-fn strains(is_flat: bool) -> Vec<[[f64; 3]; 3]> {
-    let pairs: &[[usize; 2]] =
-        if is_flat { &[[0, 0], [1, 1], [0, 1]] } else { &[[0, 0], [1, 1], [2, 2], [1, 2], [0, 2], [0, 1]] };
+fn strains(dimension: usize) -> Vec<[[f64; 3]; 3]> {
+    const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [1, 2], [0, 2], [0, 1]];
     let strain = |&[i, j]: &[usize; 2]| {
         let mut strain = [[0.0; 3]; 3];
         strain[i][j] += 0.5;
         strain[j][i] += 0.5;
         strain
     };
-    pairs.iter().map(strain).collect()
+    PAIRS.iter().filter(|[i, j]| *i < dimension && *j < dimension).map(strain).collect()
 }
 
 /// The displacements of all nodes for each strain, m.
@@ -185,9 +182,9 @@ fn young_of_directions(C: &DMatrix<f64>) -> Result<[f64; 2], String> {
 }
 
 /// Directions that cover half a circle, or half a sphere by the golden angle.
-fn direction(k: usize, is_flat: bool) -> [f64; 3] {
+fn direction(k: usize, is_in_plane: bool) -> [f64; 3] {
     let part = k as f64 / DIRECTIONS as f64;
-    if is_flat {
+    if is_in_plane {
         let (sin, cos) = (PI * part).sin_cos();
         return [cos, sin, 0.0];
     }

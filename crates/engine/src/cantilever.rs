@@ -59,6 +59,7 @@ pub fn expected_tip_displacement(body: &Body, method: &Method) -> Option<Vector3
     let size = box_size(&body.shape.mesh)?;
     let is_loaded_alone = body.pressures.is_empty()
         && body.nodal_forces.is_empty()
+        && body.fields.tables().next().is_none()
         && body.springs.is_empty()
         && body.drag.is_none()
         && body.contact.is_none();
@@ -93,7 +94,7 @@ fn box_size(mesh: &BodyMesh) -> Option<Vector3<f64>> {
     let x = mesh.vertices();
     let (least, most) = x.iter().fold((x[0], x[0]), |(least, most), x| (least.inf(x), most.sup(x)));
     let (size, volume) = (most - least, mesh.volumes().iter().sum::<f64>());
-    (!mesh.is_flat() && (volume - size.product()).abs() <= ROUNDING * volume).then_some(size)
+    (mesh.dimension() == 3 && (volume - size.product()).abs() <= ROUNDING * volume).then_some(size)
 }
 
 /// Part of a volume, or of a length, that is a rounding error.

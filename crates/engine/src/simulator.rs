@@ -32,7 +32,7 @@ use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
 use crate::forces::contact::barrier::largest_shear_modulus;
-use crate::forces::{self, Moment, anchors};
+use crate::forces::{self, Moment, drag};
 use crate::integrators::Integrator;
 use crate::model::state::State;
 use crate::model::system::{OwnForces, System};
@@ -149,8 +149,10 @@ impl<T: Real> Simulator<T> {
     fn assembled(body: Body, method: &Method, own: OwnForces<T>) -> Result<Self, Refusal> {
         let law = check::<T>(&body, method, T::EPSILON.as_f64())?;
         let method = method.clone();
-        let skinned = body.shape.mesh.solid().zip(body.shape.display.as_ref());
-        let skinning = skinned.map(|(mesh, display)| Skinning::new(mesh, &display.vertices));
+        let mesh = &body.shape.mesh;
+        let (X, tetrahedra) = (mesh.vertices(), mesh.tetrahedra());
+        let shown = body.shape.display.as_ref().filter(|_| !tetrahedra.is_empty());
+        let skinning = shown.map(|shown| Skinning::new(X, tetrahedra, &shown.vertices));
         let solver = integrator::solver_choice(&method, &body);
         let velocities = body.initial_velocity.clone();
         let mut plan = Plan::new(&body);
@@ -164,7 +166,7 @@ impl<T: Real> Simulator<T> {
         };
         range_check::check(&method, &system)?;
         system.forces.all().try_for_each(|(force, _)| capabilities::check_force(&method, force))?;
-        plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
+        plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != drag::NAME));
         system.modulus_of_free_body = modulus_of_free_body;
         let contact = Contacts::new(with_obstacles.as_ref(), &mut system);
         let initial_velocity = initial_velocity(&velocities, &system);

@@ -2,8 +2,6 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use fem_mesh::TetrahedralMesh;
-
 use fem_elements::tensor::inverse;
 
 /// Four nodes and their weights for each display vertex.
@@ -18,8 +16,8 @@ const TOLERANCE: f64 = 1e-6;
 impl Skinning {
     /// Assigns each vertex to the first element that contains it; a vertex outside all elements, to the one in which its smallest
     /// shape function is largest.
-    pub fn new(mesh: &TetrahedralMesh, vertices: &[Vector3<f64>]) -> Self {
-        let shapes: Vec<_> = mesh.elements.iter().map(|element| shape(mesh, element)).collect();
+    pub fn new(X: &[Vector3<f64>], tetrahedra: &[[usize; 4]], vertices: &[Vector3<f64>]) -> Self {
+        let shapes: Vec<_> = tetrahedra.iter().map(|element| shape(X, element)).collect();
         let weights = |element: usize, x: &Vector3<f64>| {
             let (origin, inverse) = &shapes[element];
             let phi = inverse * (x - origin);
@@ -37,7 +35,7 @@ impl Skinning {
                     break;
                 }
             }
-            (mesh.elements[best.1].map(|node| node as u32), best.2)
+            (tetrahedra[best.1].map(|node| node as u32), best.2)
         };
         Self { rows: vertices.iter().map(row).collect() }
     }
@@ -67,8 +65,8 @@ impl Skinning {
 }
 
 /// First corner, and the inverse of the edge matrix.
-fn shape(mesh: &TetrahedralMesh, element: &[usize; 4]) -> (Vector3<f64>, Matrix3<f64>) {
-    let [a, b, c, d] = element.map(|node| mesh.vertices[node]);
+fn shape(X: &[Vector3<f64>], element: &[usize; 4]) -> (Vector3<f64>, Matrix3<f64>) {
+    let [a, b, c, d] = element.map(|node| X[node]);
     // Meshes are checked: every element has a volume.
     (a, inverse(&Matrix3::from_columns(&[b - a, c - a, d - a])))
 }

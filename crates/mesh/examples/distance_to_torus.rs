@@ -30,7 +30,7 @@ fn main() -> Result<(), StuffingError> {
     println!("edge, m  doublings  tetrahedra  mesh to torus, m  torus to mesh, m  smallest, largest dihedral angle, °");
     for edge in [0.2, 0.1, 0.05, 0.025] {
         for doublings in [0, 4] {
-            let mesh = stuff_graded(&surface, edge, doublings)?;
+            let mesh = stuff_graded(&surface, edge, doublings, &|_| ())?;
             let faces = boundary(&mesh);
             let to = root_mean_square(faces.iter().map(|face| {
                 let x = face.iter().map(|&i| mesh.vertices[i]).sum::<Vector3<f64>>() / 3.0;

@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (bytes, repeats) = (std::fs::read(points)?, repeats.parse()?);
     let (seconds, corners) = match dimensions.as_str() {
         "2" => fastest(&bytes, repeats, triangulate)?,
-        "3" => fastest(&bytes, repeats, tetrahedralize)?,
+        "3" => fastest(&bytes, repeats, |points| tetrahedralize(points, &|_| ()))?,
         _ => return Err("give 2 or 3 DIMENSIONS".into()),
     };
     std::fs::write(out, corners)?;

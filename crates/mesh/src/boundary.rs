@@ -1,4 +1,4 @@
-//! The surface of a tetrahedral mesh.
+//! The surface of a mesh: the faces that belong to one element alone.
 
 use super::TetrahedralMesh;
 use super::buckets::Buckets;
@@ -12,34 +12,56 @@ pub(crate) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 
 /// vertex that its element names first. Faces are sorted into buckets by their smallest vertex: O(m) time and 48 m bytes for m
 /// elements. Indices have to be in range, as they are after [`check`](super::check).
 pub fn boundary(mesh: &TetrahedralMesh) -> Vec<[usize; 3]> {
+    let outer = outer_faces(mesh.elements.len(), |element| &mesh.elements[element], &FACES);
+    outer.into_iter().map(|[element, face]| FACES[face].map(|corner| mesh.elements[element][corner])).collect()
+}
+
+/// The faces that belong to exactly one of `count` elements, each by the number of its element and its own in it, ascending. `nodes` are those
+/// of an element, and `faces` the corners of its faces: three of a triangle, two of an edge.
+pub fn outer_faces<'a, const K: usize>(
+    count: usize,
+    nodes: impl Fn(usize) -> &'a [usize],
+    faces: &[[usize; K]],
+) -> Vec<[usize; 2]> {
     let mut outside = Vec::new();
-    for_each_face(mesh, |elements| {
-        if let [face] = elements {
-            outside.push(*face);
+    for_each_face(count, nodes, faces, |numbers| {
+        if let [face] = numbers {
+            outside.push([face / faces.len(), face % faces.len()]);
         }
     });
     outside.sort_unstable();
-    outside.into_iter().map(|face| corners(mesh, face)).collect()
+    outside
 }
 
 /// Pairs of elements with a common face, each with the smaller index first.
 pub(crate) fn neighbours(mesh: &TetrahedralMesh) -> Vec<[usize; 2]> {
     let mut pairs = Vec::with_capacity(2 * mesh.elements.len());
-    for_each_face(mesh, |elements| {
-        if let [a, b] = elements {
-            pairs.push([a / 4, b / 4]);
-        }
-    });
+    for_each_face(
+        mesh.elements.len(),
+        |element| &mesh.elements[element],
+        &FACES,
+        |numbers| {
+            if let [a, b] = numbers {
+                pairs.push([a / 4, b / 4]);
+            }
+        },
+    );
     pairs
 }
 
 /// Calls a function with the numbers of each face, ascending: once for every element that has it.
-fn for_each_face(mesh: &TetrahedralMesh, mut call: impl FnMut(&[usize])) {
-    let faces = (0..4 * mesh.elements.len()).map(|face| {
-        let mut key = corners(mesh, face);
+fn for_each_face<'a, const K: usize>(
+    count: usize,
+    nodes: impl Fn(usize) -> &'a [usize],
+    faces: &[[usize; K]],
+    mut call: impl FnMut(&[usize]),
+) {
+    let faces = (0..faces.len() * count).map(|face| {
+        let nodes = nodes(face / faces.len());
+        let mut key = faces[face % faces.len()].map(|corner| nodes[corner]);
         key.sort_unstable();
         // A mesh with more than 2³² nodes or faces fits into no memory.
-        (key[0], [key[1] as u32, key[2] as u32, face as u32])
+        (key[0], [key[1] as u32, key[K - 1] as u32, face as u32])
     });
     let mut numbers = Vec::new();
     for faces in Buckets::new(faces).iter() {
@@ -49,11 +71,6 @@ fn for_each_face(mesh: &TetrahedralMesh, mut call: impl FnMut(&[usize])) {
             call(&numbers);
         }
     }
-}
-
-/// The corners of face `face % 4` of element `face / 4`.
-fn corners(mesh: &TetrahedralMesh, face: usize) -> [usize; 3] {
-    FACES[face % 4].map(|corner| mesh.elements[face / 4][corner])
 }
 
 #[cfg(test)]

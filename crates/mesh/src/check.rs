@@ -37,11 +37,26 @@ fn find_problem_in_plane(mesh: &SurfaceMesh) -> Result<(), Problem> {
     if let Some(vertex) = mesh.vertices.iter().position(|x| x.z != 0.0) {
         return Err(Problem::OutOfPlane { vertex, z: mesh.vertices[vertex].z });
     }
+    check_elements(mesh, check_area)
+}
+
+fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+    check_contents(mesh, "tetrahedra")?;
+    check_elements(mesh, check_volume)
+}
+
+/// Checks the elements, each by the function of its number and corners, and what names them.
+fn check_elements<const N: usize>(
+    mesh: &Mesh<3, N>,
+    check_size: fn(usize, [Vector3<f64>; N]) -> Result<(), Problem>,
+) -> Result<(), Problem> {
     for (element, nodes) in mesh.elements.iter().enumerate() {
         check_indices(element, nodes, mesh.vertices.len())?;
-        check_area(element, nodes.map(|i| mesh.vertices[i])).map_err(|problem| counted(problem, mesh))?;
+        check_size(element, nodes.map(|i| mesh.vertices[i])).map_err(|problem| counted(problem, mesh))?;
     }
-    check_all_referenced(mesh)?;
+    if let Some(vertex) = used_vertices(mesh).iter().position(|&is_used| !is_used) {
+        return Err(Problem::Unreferenced { vertex });
+    }
     check_no_duplicates(mesh)?;
     sets::check(mesh)
 }
@@ -86,17 +101,6 @@ fn check_contents<const N: usize>(mesh: &Mesh<3, N>, elements: &'static str) -> 
         Some(vertex) => Err(Problem::VertexNotFinite { vertex }),
         None => Ok(()),
     }
-}
-
-fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
-    check_contents(mesh, "tetrahedra")?;
-    for (element, nodes) in mesh.elements.iter().enumerate() {
-        check_indices(element, nodes, mesh.vertices.len())?;
-        check_volume(element, nodes.map(|i| mesh.vertices[i])).map_err(|problem| counted(problem, mesh))?;
-    }
-    check_all_referenced(mesh)?;
-    check_no_duplicates(mesh)?;
-    sets::check(mesh)
 }
 
 fn check_indices<const N: usize>(element: usize, nodes: &[usize; N], count: usize) -> Result<(), Problem> {
@@ -152,15 +156,11 @@ fn check_no_duplicates<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem>
     if count == 0 { Ok(()) } else { Err(Problem::DuplicateElement { element, original, count }) }
 }
 
-fn check_all_referenced<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem> {
-    let mut referenced = vec![false; mesh.vertices.len()];
-    for &vertex in mesh.elements.iter().flatten() {
-        referenced[vertex] = true;
-    }
-    match referenced.iter().position(|&known| !known) {
-        Some(vertex) => Err(Problem::Unreferenced { vertex }),
-        None => Ok(()),
-    }
+/// True for each vertex that belongs to an element.
+pub(crate) fn used_vertices<const N: usize>(mesh: &Mesh<3, N>) -> Vec<bool> {
+    let mut is_used = vec![false; mesh.vertices.len()];
+    mesh.elements.iter().flatten().for_each(|&vertex| is_used[vertex] = true);
+    is_used
 }
 
 /// The problem of an element's volume, or of its area in the plane z = 0.

@@ -4,15 +4,14 @@ use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::{SVector, Vector3};
 
-use super::Mesh;
-
 /// The edges of a tetrahedron, by its corners.
 pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-/// The first node of each node's connected part. Nodes are connected if an element has both.
-pub fn parts<const N: usize>(mesh: &Mesh<3, N>) -> Vec<usize> {
-    let mut parent: Vec<usize> = (0..mesh.vertices.len()).collect();
-    for element in &mesh.elements {
+/// The first node of the connected part of each of so many nodes. Nodes are connected if an element has both.
+pub fn parts<E: AsRef<[usize]>>(nodes: usize, elements: impl IntoIterator<Item = E>) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..nodes).collect();
+    for element in elements {
+        let element = element.as_ref();
         for &node in &element[1..] {
             connect(&mut parent, element[0], node);
         }
@@ -24,9 +23,14 @@ pub fn parts<const N: usize>(mesh: &Mesh<3, N>) -> Vec<usize> {
 pub(crate) fn edges<const N: usize>(elements: &[[usize; N]]) -> Vec<[usize; 2]> {
     let of_element = |element: &[usize; N]| {
         let element = *element;
-        (1..N).flat_map(move |b| (0..b).map(move |a| sorted([element[a], element[b]])))
+        (1..N).flat_map(move |b| (0..b).map(move |a| [element[a], element[b]]))
     };
-    let mut edges: Vec<_> = elements.iter().flat_map(of_element).collect();
+    distinct_edges(elements.iter().flat_map(of_element))
+}
+
+/// Each edge once, its smaller node first, in ascending order.
+pub fn distinct_edges(edges: impl Iterator<Item = [usize; 2]>) -> Vec<[usize; 2]> {
+    let mut edges: Vec<_> = edges.map(sorted).collect();
     edges.sort_unstable();
     edges.dedup();
     edges
@@ -100,19 +104,19 @@ pub struct CoincidentNodes {
 }
 
 /// Nodes that coincide within 1e-9 of the mesh's size; `None` if there are none.
-pub fn coincident_nodes<const N: usize>(mesh: &Mesh<3, N>) -> Option<CoincidentNodes> {
-    let corner = mesh.vertices.first()?;
-    let largest = mesh.vertices.iter().map(|x| (x - corner).amax()).fold(0.0, f64::max);
+pub fn coincident_nodes(vertices: &[Vector3<f64>]) -> Option<CoincidentNodes> {
+    let corner = vertices.first()?;
+    let largest = vertices.iter().map(|x| (x - corner).amax()).fold(0.0, f64::max);
     let near = NEAR * largest;
     // Few nodes of a mesh have nearly the same coordinate along an oblique direction.
     let direction = Vector3::new(0.537_284, 0.831_947, 0.137_415).normalize();
     let mut along: Vec<(f64, usize)> =
-        mesh.vertices.iter().enumerate().map(|(node, x)| (direction.dot(&(x - corner)), node)).collect();
+        vertices.iter().enumerate().map(|(node, x)| (direction.dot(&(x - corner)), node)).collect();
     along.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut partner = vec![usize::MAX; mesh.vertices.len()];
+    let mut partner = vec![usize::MAX; vertices.len()];
     for (i, &(start, a)) in along.iter().enumerate() {
         for &(_, b) in along[i + 1..].iter().take_while(|(end, _)| end - start <= near) {
-            if (mesh.vertices[a] - mesh.vertices[b]).norm() <= near {
+            if (vertices[a] - vertices[b]).norm() <= near {
                 let (first, second) = (a.min(b), a.max(b));
                 partner[second] = partner[second].min(first);
             }
@@ -139,7 +143,8 @@ mod tests {
 
     #[test]
     fn two_boxes_are_two_parts_named_by_their_first_nodes() {
-        let parts = parts(&boxes(1.0));
+        let mesh = boxes(1.0);
+        let parts = parts(mesh.vertices.len(), &mesh.elements);
         assert_eq!(parts.len(), 90);
         assert!(parts[..45].iter().all(|&part| part == 0) && parts[45..].iter().all(|&part| part == 45));
     }
@@ -148,9 +153,12 @@ mod tests {
     fn touching_boxes_have_coincident_nodes_and_separate_ones_do_not() {
         // Nodes 4, 9, … of the first box lie at x = 2, as do nodes 45, 50, … of the second.
         let found = CoincidentNodes { count: 9, first: [4, 45] };
-        assert_eq!(coincident_nodes(&boxes(0.0)), Some(found));
-        assert_eq!(coincident_nodes(&boxes(1e-9)), Some(found), "within 1e-9 of 4 m");
-        assert_eq!(coincident_nodes(&boxes(1e-7)), None);
-        assert_eq!(coincident_nodes(&crate::box_mesh([1.0, 1.0, 1.0], 20, crate::Pattern::Alternating).unwrap()), None);
+        assert_eq!(coincident_nodes(&boxes(0.0).vertices), Some(found));
+        assert_eq!(coincident_nodes(&boxes(1e-9).vertices), Some(found), "within 1e-9 of 4 m");
+        assert_eq!(coincident_nodes(&boxes(1e-7).vertices), None);
+        assert_eq!(
+            coincident_nodes(&crate::box_mesh([1.0, 1.0, 1.0], 20, crate::Pattern::Alternating).unwrap().vertices),
+            None
+        );
     }
 }

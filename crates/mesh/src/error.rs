@@ -164,53 +164,31 @@ pub enum Problem {
 
 /// Reason why a surface has no tetrahedra inside.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum StuffingError {
     /// A vertex is NaN or infinite.
     #[error(
         "vertex {vertex} (counted from 0) has a coordinate that is not finite; give it a finite position or remove it"
     )]
-    NotFinite {
-        /// Counted from 0.
-        vertex: usize,
-    },
+    NotFinite { vertex: usize },
     /// The edge length is no length.
     #[error("an edge of {edge} m; give a length above 0")]
-    Edge {
-        /// m
-        edge: f64,
-    },
+    Edge { edge: f64 },
     /// Too many tetrahedra.
     #[error(
         "with edges of {edge} m the box around the surface would have {count:.1e} tetrahedra, and {most:.0e} is the most; take longer edges"
     )]
-    TooFine {
-        /// m
-        edge: f64,
-        /// Number of tetrahedra.
-        count: f64,
-        /// Largest number of them.
-        most: f64,
-    },
+    TooFine { edge: f64, count: f64, most: f64 },
     /// A triangle crosses the boundary of a cage that contains all tetrahedra which it touches: its coordinates are too large for the edge.
     #[error(
         "triangle {triangle} (counted from 0) is not enclosed by tetrahedra with edges of {edge} m; take longer edges, or move the surface to the origin"
     )]
-    NotEnclosed {
-        /// Counted from 0.
-        triangle: usize,
-        /// m
-        edge: f64,
-    },
+    NotEnclosed { triangle: usize, edge: f64 },
     /// The lattice has no node inside the surface.
     #[error(
         "with edges of {edge} m no point of the lattice lies inside the surface; take shorter edges (the surface measures {} × {} × {} m), or close it", size[0], size[1], size[2]
     )]
-    Empty {
-        /// m
-        edge: f64,
-        /// Size of the box around the surface, m.
-        size: [f64; 3],
-    },
+    Empty { edge: f64, size: [f64; 3] },
 }
 
 /// The first characters of a file's content, which may be long or binary, in one line that a terminal can show.

@@ -39,7 +39,6 @@ mod measures;
 mod orient;
 mod overlap;
 mod pattern;
-mod quadratic;
 mod quality;
 mod read;
 mod refine;
@@ -48,18 +47,16 @@ mod sides;
 mod tidy;
 pub mod write;
 
-pub use boundary::boundary;
+pub use boundary::{boundary, outer_faces};
 pub use box_mesh::{box_mesh, rectangle_mesh};
 pub use check::{check, check_plane};
-pub use connectivity::{CoincidentNodes, coincident_nodes, parts};
+pub use connectivity::{CoincidentNodes, coincident_nodes, distinct_edges, parts};
 pub use error::{MeshError, Place, Problem};
 pub use join::join;
-pub(crate) use measures::signed_volume;
-pub use measures::{area_vector, volumes};
+pub use measures::{area_vector, signed_volume, volumes};
 pub use orient::oriented;
 pub use overlap::overlap;
 pub use pattern::Pattern;
-pub use quadratic::{QuadraticMesh, QuadraticSide, quadratic, quarters_of, sides};
 pub use quality::{
     Distribution, Extreme, Quality, SelfIntersections, SurfaceQuality, TriangleQuality, quality, self_intersections,
     surface_quality, tetrahedron_distributions, tetrahedron_radius_to_edge, triangle_distributions, triangle_quality,

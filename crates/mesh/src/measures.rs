@@ -7,7 +7,7 @@ use super::TetrahedralMesh;
 /// Volume of the tetrahedron (a, b, c, d), m³: `dot(cross(b − a, c − a), d − a) / 6`, negative for a mirrored tetrahedron.
 ///
 /// It is computed from differences of positions, so a mesh far from the origin loses no digits beyond those of its coordinates.
-pub(crate) fn signed_volume([a, b, c, d]: [Vector3<f64>; 4]) -> f64 {
+pub fn signed_volume([a, b, c, d]: [Vector3<f64>; 4]) -> f64 {
     (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0
 }
 

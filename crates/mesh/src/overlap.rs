@@ -2,17 +2,22 @@
 
 use nalgebra::Vector3;
 
+use super::area_vector;
 use super::boundary::FACES;
 use super::boxes::{Bounds, BoxTree};
-use super::{TetrahedralMesh, area_vector};
 
 /// Depth below which two elements touch and do not overlap, relative to their size.
 const TOUCHING: f64 = 1e-4;
 
 /// Least and largest corner of a box around the volume that two sets of elements have in common, m; `None` if they share no more than their
 /// surfaces. Elements have a positive volume.
-pub fn overlap(mesh: &TetrahedralMesh, a: &[usize], b: &[usize]) -> Option<[Vector3<f64>; 2]> {
-    let corners = |element: usize| mesh.elements[element].map(|node| mesh.vertices[node]);
+pub fn overlap(
+    vertices: &[Vector3<f64>],
+    tetrahedra: &[[usize; 4]],
+    a: &[usize],
+    b: &[usize],
+) -> Option<[Vector3<f64>; 2]> {
+    let corners = |element: usize| tetrahedra[element].map(|node| vertices[node]);
     let tree = BoxTree::new(a.iter().map(|&element| (element, Bounds::of(&corners(element)))).collect());
     let mut points: Option<Bounds> = None;
     for &element in b {
@@ -72,7 +77,12 @@ mod tests {
         second.vertices.iter_mut().for_each(|x| *x = scale * *x + shift);
         let count = first.elements.len();
         let mesh = join([("a".to_owned(), first), ("b".to_owned(), second)]);
-        overlap(&mesh, &(0..count).collect::<Vec<_>>(), &(count..2 * count).collect::<Vec<_>>())
+        overlap(
+            &mesh.vertices,
+            &mesh.elements,
+            &(0..count).collect::<Vec<_>>(),
+            &(count..2 * count).collect::<Vec<_>>(),
+        )
     }
 
     #[test]

@@ -5,8 +5,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::box_mesh::MOST_ELEMENTS;
-use super::connectivity::edges;
-use super::connectivity::{EDGES, quarters, sorted};
+use super::connectivity::{EDGES, edges, quarters, sorted};
 use super::{Mesh, MeshError, MeshSet, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// The three diagonals of the inner octahedron: the two ends of each, then the other four edge midpoints around it, such that

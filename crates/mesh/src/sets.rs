@@ -25,11 +25,11 @@ impl MeshSet {
     ///
     /// A file without names numbers its groups of every dimension from 1, so a surface and a volume can share a name; the nodes
     /// of the surface are meant then.
-    pub fn nodes<const N: usize>(&self, elements: &[[usize; N]]) -> Vec<usize> {
+    pub fn nodes<'a>(&self, nodes_of: impl Fn(usize) -> &'a [usize]) -> Vec<usize> {
         let (faces, edges) = (self.faces.iter().flatten(), self.edges.iter().flatten());
         let mut nodes: Vec<usize> = faces.chain(edges).chain(&self.points).copied().collect();
         if nodes.is_empty() {
-            nodes = self.elements.iter().flat_map(|&element| elements[element]).collect();
+            nodes = self.elements.iter().flat_map(|&element| nodes_of(element)).copied().collect();
         }
         nodes.sort_unstable();
         nodes.dedup();

@@ -1,14 +1,13 @@
 //! Repairs of meshes: what belongs to no element is left out, elements are turned, elements without a size or that repeat others go.
 
-use super::check::{is_inverted, problem_of_size};
+use super::check::{is_inverted, problem_of_size, used_vertices};
 use super::connectivity::sorted;
 use super::sets::parts_of_elements;
 use super::{Mesh, MeshSet, Problem, SurfaceMesh, area_vector};
 
 /// Leaves out the nodes of no element, with those that sets name. Returns their number.
 pub(crate) fn leave_out_unreferenced<const N: usize>(mesh: &mut Mesh<3, N>) -> usize {
-    let mut is_used = vec![false; mesh.vertices.len()];
-    mesh.elements.iter().flatten().for_each(|&node| is_used[node] = true);
+    let is_used = used_vertices(mesh);
     let count = is_used.iter().filter(|is_used| !**is_used).count();
     if count == 0 {
         return 0;
@@ -39,8 +38,7 @@ pub(crate) fn leave_out_strays<const N: usize>(mesh: &mut Mesh<3, N>) -> Vec<Str
         return lines;
     }
     let (faces, edges) = parts_of_elements(mesh);
-    let mut is_used = vec![false; mesh.vertices.len()];
-    mesh.elements.iter().flatten().for_each(|&node| is_used[node] = true);
+    let is_used = used_vertices(mesh);
     let elements = mesh.elements.len();
     for (name, set) in &mut mesh.sets {
         let before = [set.elements.len(), set.faces.len(), set.edges.len(), set.points.len()];

@@ -9,8 +9,8 @@ use crate::regions::density_factors;
 use crate::selector::{elements, listed, loaded_faces, nodes};
 use crate::simulation::Shape;
 use crate::{
-    BodyMesh, Contact, Damping, DirichletCondition, Drag, Law, LoadCurve, Material, MaterialRegion, Method, Motion,
-    NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
+    BodyMesh, Contact, Damping, DirichletCondition, Drag, ForceFields, Law, LoadCurve, Material, MaterialRegion,
+    Method, Motion, NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
 };
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
@@ -55,6 +55,8 @@ pub struct Body {
     pub nodal_forces: Vec<NodalForce>,
     /// Follower loads on the surface.
     pub pressures: Vec<Pressure>,
+    /// Force fields.
+    pub fields: ForceFields,
     /// Springs between nodes.
     pub springs: Vec<Spring>,
     /// Obstacles.
@@ -69,17 +71,13 @@ impl Body {
     /// A uniform body at rest without constraints and loads. Refuses a mesh that cannot be simulated (a node outside the mesh, an element
     /// without volume, …) and parameters out of range.
     pub fn new(mesh: impl Into<BodyMesh>, material: Material) -> Result<Self, Refusal> {
-        let mesh = mesh.into();
-        let checked = match &mesh {
-            BodyMesh::Solid(mesh) => fem_mesh::check(mesh, Path::new("mesh")),
-            BodyMesh::Flat { triangles, .. } => fem_mesh::check_plane(triangles, Path::new("mesh")),
-            BodyMesh::Quadratic { .. } => Ok(()),
-        };
-        checked.map_err(|error| Refusal::new("mesh", format!("cannot be simulated: {error}")))?;
+        let checked = mesh.into().checked(Path::new("mesh"));
+        let mesh = checked.map_err(|error| Refusal::new("mesh", format!("cannot be simulated: {error}")))?;
         mesh.thickness().map_or(Ok(()), |thickness| check_positive("material.thickness", thickness, " of m"))?;
         material.check("material")?;
         if material.plane == PlaneState::Stress
-            && !(mesh.is_flat() && Law::named(material.law.name()).is_some_and(|facts| facts.has_plane_stress))
+            && !(mesh.thickness().is_some()
+                && Law::named(material.law.name()).is_some_and(|facts| facts.has_plane_stress))
         {
             return problem("material.plane", "is stress, a state of flat bodies whose law is linear or corotated");
         }
@@ -107,6 +105,7 @@ impl Body {
             tractions: Vec::new(),
             nodal_forces: Vec::new(),
             pressures: Vec::new(),
+            fields: ForceFields::default(),
             springs: Vec::new(),
             contact: None,
             drag: None,
@@ -200,6 +199,15 @@ impl Body {
         check_vector(&format!("{table}.value"), &force)?;
         let nodes = nodes(&table, selector, &self.shape.mesh)?;
         self.nodal_forces.push(NodalForce { nodes, force: force.into(), curve: None });
+        Ok(self)
+    }
+
+    /// Adds a force field, such as [`CentralGravity`](crate::CentralGravity).
+    pub fn field(mut self, field: impl Into<ForceFields>) -> Result<Self, Refusal> {
+        let field = field.into();
+        field.check()?;
+        field.check_on(&self.shape.mesh)?;
+        self.fields.extend(field);
         Ok(self)
     }
 

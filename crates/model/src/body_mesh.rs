@@ -1,254 +1,339 @@
 //! The nodes and elements of a body, solid or flat.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
+use fem_mesh::write::Grid;
 use fem_mesh::{
-    CoincidentNodes, MeshSet, QuadraticMesh, SurfaceMesh, TetrahedralMesh, area_vector, quarters_of, sides,
+    CoincidentNodes, Mesh, MeshError, MeshSet, TetrahedralMesh, area_vector, distinct_edges, outer_faces, signed_volume,
 };
 use nalgebra::{Matrix3, Vector3};
 
 use crate::body_length;
+use crate::element::{Element, ShapeFunction};
 
-/// The mesh of a body.
+/// The mesh of a body: elements of one kind. A flat body lies in the plane z = 0.
 #[derive(Clone, Debug, PartialEq)]
-pub enum BodyMesh {
-    /// Tetrahedra.
-    Solid(TetrahedralMesh),
-    /// Triangles in the plane z = 0.
-    Flat {
-        /// Counter-clockwise seen from positive z.
-        triangles: SurfaceMesh,
-        /// m
-        thickness: f64,
-    },
-    /// Straight-sided quadratic triangles in the plane z = 0.
-    Quadratic {
-        /// Counter-clockwise seen from positive z.
-        triangles: QuadraticMesh,
-        /// m
-        thickness: f64,
-    },
-}
-
-/// Evaluates an expression for the mesh, whatever its elements.
-macro_rules! with_mesh {
-    ($mesh:expr, $name:ident => $value:expr) => {
-        match $mesh {
-            BodyMesh::Solid($name) => $value,
-            BodyMesh::Flat { triangles: $name, .. } => $value,
-            BodyMesh::Quadratic { triangles: $name, .. } => $value,
-        }
-    };
+pub struct BodyMesh {
+    element: &'static Element,
+    vertices: Vec<Vector3<f64>>,
+    /// The nodes of the first element, its corners first, then those of the next.
+    nodes: Vec<usize>,
+    /// m
+    thickness: Option<f64>,
+    sets: BTreeMap<String, MeshSet>,
 }
 
 impl BodyMesh {
+    /// A solid body.
+    pub fn solid<const N: usize>(mesh: Mesh<3, N>) -> Self {
+        Self::new(const { Element::with_nodes(3, N) }, mesh, None)
+    }
+
+    /// A flat body of a thickness, m. Its elements are counter-clockwise seen from positive z.
+    pub fn flat<const N: usize>(mesh: Mesh<3, N>, thickness: f64) -> Self {
+        Self::new(const { Element::with_nodes(2, N) }, mesh, Some(thickness))
+    }
+
+    fn new<const N: usize>(element: &'static Element, mesh: Mesh<3, N>, thickness: Option<f64>) -> Self {
+        Self { element, vertices: mesh.vertices, nodes: mesh.elements.into_flattened(), thickness, sets: mesh.sets }
+    }
+
+    /// The kind of its elements.
+    pub fn element(&self) -> &'static Element {
+        self.element
+    }
+
+    /// Number of dimensions of the undeformed body: 2 if it is flat, 3 if it is solid.
+    pub fn dimension(&self) -> usize {
+        self.element.dimension
+    }
+
+    /// The directions in which no node moves: a flat body stays in its plane.
+    pub fn fixed_directions(&self) -> [bool; 3] {
+        std::array::from_fn(|i| i >= self.dimension())
+    }
+
+    /// Thickness of a flat body, m.
+    pub fn thickness(&self) -> Option<f64> {
+        self.thickness
+    }
+
     /// Undeformed positions of the nodes, m.
     pub fn vertices(&self) -> &[Vector3<f64>] {
-        with_mesh!(self, mesh => &mesh.vertices)
+        &self.vertices
     }
 
     /// Length of the undeformed body, m, whatever its direction: √12 times its largest radius of gyration, for a box its longest edge.
     pub fn length(&self) -> f64 {
-        let corners = if self.is_flat() { 3 } else { 4 };
-        body_length::length(self.vertices(), || self.corners(), corners, &self.volumes())
+        body_length::length(self.vertices(), || self.corners(), self.element.corners(), &self.volumes())
     }
 
     /// Number of elements.
     pub fn elements(&self) -> usize {
-        with_mesh!(self, mesh => mesh.elements.len())
+        self.nodes.len() / self.element.nodes()
     }
 
     /// The nodes of an element, its corners first.
     pub fn nodes_of(&self, element: usize) -> &[usize] {
-        with_mesh!(self, mesh => &mesh.elements[element])
+        let count = self.element.nodes();
+        &self.nodes[count * element..count * (element + 1)]
+    }
+
+    /// The nodes at the corners of an element.
+    pub fn corners_of(&self, element: usize) -> &[usize] {
+        &self.nodes_of(element)[..self.element.corners()]
     }
 
     /// The nodes of each element, its corners first.
     pub fn corners(&self) -> impl Iterator<Item = &[usize]> {
-        (0..self.elements()).map(|element| self.nodes_of(element))
+        self.nodes.chunks_exact(self.element.nodes())
+    }
+
+    /// The nodes of each element as arrays; `None` if elements have another number of nodes.
+    pub fn arrays<const N: usize>(&self) -> Option<&[[usize; N]]> {
+        (N == self.element.nodes()).then(|| self.nodes.as_chunks().0)
+    }
+
+    /// The tetrahedra of a body of linear ones; empty for other bodies.
+    pub fn tetrahedra(&self) -> &[[usize; 4]] {
+        self.arrays().unwrap_or_default()
+    }
+
+    /// The mesh itself; `None` if elements have another number of nodes.
+    pub fn mesh<const N: usize>(&self) -> Option<Mesh<3, N>> {
+        (N == self.element.nodes()).then(|| self.clone().into_mesh())
     }
 
     /// The first node of each node's connected part.
     pub fn parts(&self) -> Vec<usize> {
-        with_mesh!(self, mesh => fem_mesh::parts(mesh))
+        fem_mesh::parts(self.vertices.len(), self.corners())
     }
 
     /// Nodes that coincide without being merged.
     pub fn coincident_nodes(&self) -> Option<CoincidentNodes> {
-        with_mesh!(self, mesh => fem_mesh::coincident_nodes(mesh))
+        fem_mesh::coincident_nodes(&self.vertices)
     }
 
-    /// Triangles of the surface: the boundary of a solid body, counter-clockwise from outside, or all triangles of a flat one,
-    /// of which a quadratic one gives the four between its nodes.
+    /// Triangles of the surface: the boundary of a solid body, counter-clockwise from outside, or all triangles of a flat one. Faces with more
+    /// nodes than corners give the triangles between their nodes.
     pub fn surface(&self) -> Vec<[usize; 3]> {
-        match self {
-            Self::Solid(mesh) => fem_mesh::boundary(mesh),
-            Self::Flat { triangles, .. } => triangles.elements.clone(),
-            Self::Quadratic { triangles, .. } => quarters_of(&triangles.elements),
-        }
+        self.triangles().map(|(_, triangle)| triangle).collect()
     }
 
-    /// Edges of the outline of a flat body, each with the body on its left: its two ends, then the node in its middle if the triangles are
-    /// quadratic. None for a solid body.
-    pub fn outline(&self) -> Vec<Vec<usize>> {
-        let edges: Vec<Vec<usize>> = match self {
-            Self::Solid(_) => Vec::new(),
-            Self::Flat { triangles, .. } => {
-                triangles.elements.iter().flat_map(|&[a, b, c]| [vec![a, b], vec![b, c], vec![c, a]]).collect()
-            }
-            Self::Quadratic { triangles, .. } => sides(&triangles.elements).map(Vec::from).collect(),
+    /// The element of each triangle of [`surface`](Self::surface).
+    pub fn elements_of_surface(&self) -> Vec<usize> {
+        self.triangles().map(|(element, _)| element).collect()
+    }
+
+    fn triangles(&self) -> impl Iterator<Item = (usize, [usize; 3])> {
+        let Element { dimension, faces, triangles, .. } = *self.element;
+        let pieces = match dimension {
+            2 => (0..self.elements()).map(|element| [element, 0]).collect(),
+            _ => self.outer_faces(),
         };
-        let directed: HashSet<[usize; 2]> = edges.iter().map(|edge| [edge[0], edge[1]]).collect();
-        edges.into_iter().filter(|edge| !directed.contains(&[edge[1], edge[0]])).collect()
+        pieces.into_iter().flat_map(move |[element, face]| {
+            let (nodes, face) = (self.nodes_of(element), faces[face]);
+            let node = move |i: usize| nodes[if dimension == 2 { i } else { face[i] }];
+            triangles.iter().map(move |triangle| (element, triangle.map(node)))
+        })
     }
 
-    /// Undeformed area of a part of the surface, m²: a triangle of a solid body, an edge of a flat one.
-    pub fn area(&self, nodes: &[usize]) -> f64 {
-        let x = |i: usize| self.vertices()[nodes[i]];
-        match self {
-            Self::Solid(_) => area_vector([x(0), x(1), x(2)]).norm(),
-            Self::Flat { thickness, .. } | Self::Quadratic { thickness, .. } => thickness * (x(1) - x(0)).norm(),
+    /// The faces of the boundary, corners first: triangles of a solid body, counter-clockwise from outside, or edges of a flat one with the body
+    /// on their left.
+    pub fn faces(&self) -> Vec<Vec<usize>> {
+        let nodes = |[element, face]: [usize; 2]| {
+            self.element.faces[face].iter().map(|&node| self.nodes_of(element)[node]).collect()
+        };
+        self.outer_faces().into_iter().map(nodes).collect()
+    }
+
+    /// The faces that belong to one element alone: its number, and that of the face in it.
+    fn outer_faces(&self) -> Vec<[usize; 2]> {
+        let faces = self.element.faces;
+        let (count, nodes) = (self.elements(), |element| self.nodes_of(element));
+        match self.dimension() {
+            2 => outer_faces(count, nodes, &faces.iter().map(|face| [face[0], face[1]]).collect::<Vec<_>>()),
+            _ => outer_faces(count, nodes, &faces.iter().map(|face| [face[0], face[1], face[2]]).collect::<Vec<_>>()),
         }
     }
 
-    /// The part of a uniform load on an element that each of its nodes carries: the mean of its shape function. The load of a quadratic
-    /// triangle acts at the middles of its sides.
-    pub fn load_shares(&self) -> &'static [f64] {
-        match self {
-            Self::Solid(_) => &[0.25; 4],
-            Self::Flat { .. } => &[1.0 / 3.0; 3],
-            Self::Quadratic { .. } => &[0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
-        }
-    }
-
-    /// The part of an element's mass that each of its nodes carries where the mass is lumped. Row sums of the consistent mass would leave
-    /// the corners of a quadratic triangle without any, so there the diagonal is scaled instead: Hinton, Rock and Zienkiewicz, A Note on
-    /// Mass Lumping and Related Processes in the Finite Element Method (1976).
-    pub fn lumped_mass_shares(&self) -> &'static [f64] {
-        match self {
-            Self::Solid(_) | Self::Flat { .. } => self.load_shares(),
-            Self::Quadratic { .. } => &[1.0 / 19.0, 1.0 / 19.0, 1.0 / 19.0, 16.0 / 57.0, 16.0 / 57.0, 16.0 / 57.0],
-        }
-    }
-
-    /// The part of a uniform load on a face of the surface (an edge of a flat body) that each of its nodes carries: Simpson's rule on a
-    /// quadratic edge.
-    pub fn face_shares(&self) -> &'static [f64] {
-        match self {
-            Self::Solid(_) => &[1.0 / 3.0; 3],
-            Self::Flat { .. } => &[0.5; 2],
-            Self::Quadratic { .. } => &[1.0 / 6.0, 1.0 / 6.0, 4.0 / 6.0],
-        }
+    /// Undeformed area of a face, m².
+    pub fn area(&self, face: &[usize]) -> f64 {
+        self.thickness.unwrap_or(1.0) * self.element.area_vector(|i| self.vertices[face[i]]).norm()
     }
 
     /// Named parts.
     pub fn sets(&self) -> &BTreeMap<String, MeshSet> {
-        with_mesh!(self, mesh => &mesh.sets)
+        &self.sets
     }
 
-    /// The nodes of a named part.
+    /// The nodes of a named part, ascending.
     pub fn nodes_of_set(&self, set: &MeshSet) -> Vec<usize> {
-        match self {
-            Self::Solid(mesh) => set.nodes(&mesh.elements),
-            Self::Flat { triangles, .. } => set.nodes(&triangles.elements),
-            Self::Quadratic { triangles, .. } => {
-                let edges: HashSet<[usize; 2]> = set.edges.iter().copied().collect();
-                let is_named = |&[a, b, _]: &[usize; 3]| edges.contains(&[a.min(b), a.max(b)]);
-                let middles = sides(&triangles.elements).filter(is_named).map(|[_, _, middle]| middle);
-                let all: BTreeSet<usize> = set.nodes(&triangles.elements).into_iter().chain(middles).collect();
-                all.into_iter().collect()
-            }
-        }
+        let mut all: BTreeSet<usize> = set.nodes(|element| self.nodes_of(element)).into_iter().collect();
+        let edges: BTreeSet<[usize; 2]> = set.edges.iter().copied().collect();
+        let middles = (0..self.elements())
+            .flat_map(|element| self.middles_of(element))
+            .filter(|(ends, _)| edges.contains(&[ends[0].min(ends[1]), ends[0].max(ends[1])]));
+        all.extend(middles.map(|(_, middle)| middle));
+        all.into_iter().collect()
+    }
+
+    /// The ends of each edge of an element that has a node at its middle, and that node.
+    pub fn middles_of(&self, element: usize) -> impl Iterator<Item = ([usize; 2], usize)> {
+        let nodes = self.nodes_of(element);
+        let middles = &nodes[self.element.corners()..];
+        self.element.edges.iter().zip(middles).map(|(edge, &middle)| (edge.map(|corner| nodes[corner]), middle))
     }
 
     /// Undeformed volume of each element, m³.
     pub fn volumes(&self) -> Vec<f64> {
-        match self {
-            Self::Solid(mesh) => fem_mesh::volumes(mesh),
-            Self::Flat { thickness, .. } | Self::Quadratic { thickness, .. } => {
-                let x = self.vertices();
-                self.corners().map(|nodes| thickness * area_vector([0, 1, 2].map(|i| x[nodes[i]])).z).collect()
+        let x = |nodes: &[usize], i: usize| self.vertices[nodes[i]];
+        match self.thickness {
+            Some(thickness) => {
+                self.corners().map(|nodes| thickness * area_vector([0, 1, 2].map(|i| x(nodes, i))).z).collect()
             }
+            None => self.corners().map(|nodes| signed_volume([0, 1, 2, 3].map(|i| x(nodes, i)))).collect(),
         }
     }
 
-    /// G = F − 1 of an element for displacements `u` of its nodes, m: the mean over the element of the displacement gradient.
+    /// G = F − 1 of an element for displacements `u` of its nodes, m: the mean over the element of the displacement gradient, which is the
+    /// gradient at its centroid.
     pub fn displacement_gradient(&self, element: usize, u: impl Fn(usize) -> Vector3<f64>) -> Matrix3<f64> {
-        let nodes = self.nodes_of(element);
-        let edge = |x: &dyn Fn(usize) -> Vector3<f64>, k: usize| nodes.get(k).map(|&node| x(node) - x(nodes[0]));
-        let x = |node: usize| self.vertices()[node];
-        let mut undeformed = [1, 2, 3].map(|k| edge(&x, k).unwrap_or(Vector3::z()));
-        let mut change = [1, 2, 3].map(|k| edge(&u, k).unwrap_or_default());
-        if let Self::Quadratic { .. } = self {
-            // The mean gradient of φ of a corner is a third of that of the linear shape function g; of a middle, 4/3 (g_a + g_b).
-            let at = |k: usize| u(nodes[k]) - u(nodes[0]);
-            change[0] = (change[0] + 4.0 * (at(4) - at(5))) / 3.0;
-            change[1] = (change[1] + 4.0 * (at(4) - at(3))) / 3.0;
-            (undeformed[2], change[2]) = (Vector3::z(), Vector3::zeros());
-        }
+        let corners = self.element.corners();
+        self.displacement_gradient_at(element, &[1.0 / corners as f64; 4][..corners], u)
+    }
+
+    /// The same at barycentric coordinates.
+    pub fn displacement_gradient_at(
+        &self,
+        element: usize,
+        L: &[f64],
+        u: impl Fn(usize) -> Vector3<f64>,
+    ) -> Matrix3<f64> {
+        let (nodes, corners) = (self.nodes_of(element), self.element.corners());
+        let undeformed = [1, 2, 3].map(|k| match k < corners {
+            true => self.vertices[nodes[k]] - self.vertices[nodes[0]],
+            false => Vector3::z(),
+        });
+        let change = [1, 2, 3].map(|k| if k < corners { self.derivative(nodes, k, L, &u) } else { Vector3::zeros() });
         // A checked mesh has no element without volume.
         let inverse = Matrix3::from_columns(&undeformed).try_inverse();
         inverse.map_or(Matrix3::zeros(), |inverse| Matrix3::from_columns(&change) * inverse)
     }
 
-    /// The tetrahedra of a solid body; empty for a flat one.
-    pub fn tetrahedra(&self) -> &[[usize; 4]] {
-        self.solid().map_or(&[], |mesh| &mesh.elements)
-    }
-
-    /// The mesh of a solid body.
-    pub fn solid(&self) -> Option<&TetrahedralMesh> {
-        match self {
-            Self::Solid(mesh) => Some(mesh),
-            Self::Flat { .. } | Self::Quadratic { .. } => None,
+    /// The derivative of displacements along the edge from the first corner of an element to another one, times the length of the edge, m.
+    fn derivative(&self, nodes: &[usize], corner: usize, L: &[f64], u: impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
+        let first = u(nodes[0]);
+        if self.element.order == 1 {
+            return u(nodes[corner]) - first;
         }
-    }
-
-    /// The elements in the plural, for messages.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Solid(_) => "tetrahedra",
-            Self::Flat { .. } => "triangles",
-            Self::Quadratic { .. } => "quadratic triangles",
-        }
-    }
-
-    /// Number of quadrature points of an element, at each of which the material has a state.
-    pub fn points_per_element(&self) -> usize {
-        match self {
-            Self::Solid(_) | Self::Flat { .. } => 1,
-            Self::Quadratic { .. } => 3,
-        }
+        let term = |(&node, function): (&usize, &ShapeFunction)| {
+            let [along, back] = [corner, 0].map(|by| function.derivative(by, L).unwrap_or(0.0));
+            (along - back) * (u(node) - first)
+        };
+        nodes.iter().zip(self.element.shape_functions).map(term).sum()
     }
 
     /// Undeformed positions of the quadrature points of an element, m, in the order of its states.
     pub fn points(&self, element: usize) -> Vec<Vector3<f64>> {
-        let X = self.vertices();
-        match (self, self.nodes_of(element)) {
-            (Self::Quadratic { .. }, &[a, b, c, ..]) => {
-                let near = |i: usize, j: usize, k: usize| X[i] * (2.0 / 3.0) + (X[j] + X[k]) / 6.0;
-                vec![near(a, b, c), near(b, c, a), near(c, a, b)]
-            }
-            (_, nodes) => vec![nodes.iter().map(|&node| X[node]).sum::<Vector3<f64>>() / nodes.len() as f64],
+        let corners = self.corners_of(element);
+        let x = || corners.iter().map(|&node| self.vertices[node]);
+        match self.element.points {
+            [_] => vec![x().sum::<Vector3<f64>>() / corners.len() as f64],
+            points => points.iter().map(|L| x().zip(*L).map(|(x, L)| x * *L).sum()).collect(),
         }
     }
 
-    /// Thickness of a flat body, m.
-    pub fn thickness(&self) -> Option<f64> {
-        match self {
-            Self::Solid(_) => None,
-            Self::Flat { thickness, .. } | Self::Quadratic { thickness, .. } => Some(*thickness),
+    /// The mesh as cells to be written.
+    pub fn grid(&self) -> Grid<'_> {
+        let Element { vtk_cell: cell_type, .. } = *self.element;
+        Grid { vertices: &self.vertices, nodes: &self.nodes, nodes_per_cell: self.element.nodes(), cell_type }
+    }
+
+    /// The mesh times a factor.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.vertices.iter_mut().for_each(|x| *x *= factor);
+        self
+    }
+
+    /// Checks that linear elements can be simulated: [`fem_mesh::check`] and [`fem_mesh::check_plane`]. `source` is named in the error.
+    pub fn checked(self, source: &Path) -> Result<Self, MeshError> {
+        self.of_linear(
+            |mesh| fem_mesh::check_plane(&mesh, source).map(|()| mesh),
+            |mesh| fem_mesh::check(&mesh, source).map(|()| mesh),
+        )
+    }
+
+    /// Cuts linear elements at the midpoints of their edges, so many times: [`fem_mesh::refine`].
+    pub fn refined(self, times: u32, source: &Path) -> Result<Self, MeshError> {
+        self.of_linear(
+            |mesh| fem_mesh::refine_triangles(mesh, times, source),
+            |mesh| fem_mesh::refine(mesh, times, source),
+        )
+    }
+
+    /// The mesh that functions make of its linear triangles or tetrahedra; itself if it has others.
+    fn of_linear(
+        self,
+        triangles: impl Fn(Mesh<3, 3>) -> Result<Mesh<3, 3>, MeshError>,
+        tetrahedra: impl Fn(Mesh<3, 4>) -> Result<Mesh<3, 4>, MeshError>,
+    ) -> Result<Self, MeshError> {
+        match (self.element.order, self.thickness) {
+            (1, Some(thickness)) => Ok(Self::flat(triangles(self.into_mesh())?, thickness)),
+            (1, None) => Ok(Self::solid(tetrahedra(self.into_mesh())?)),
+            _ => Ok(self),
         }
     }
 
-    /// Returns true if the body is flat.
-    pub fn is_flat(&self) -> bool {
-        matches!(self, Self::Flat { .. } | Self::Quadratic { .. })
+    fn into_mesh<const N: usize>(self) -> Mesh<3, N> {
+        Mesh { elements: self.nodes.as_chunks().0.to_vec(), vertices: self.vertices, sets: self.sets }
+    }
+
+    /// Puts the further nodes of elements of another order on the edges of linear ones; `None` if there is no such element. The first nodes
+    /// are those of the mesh, the others follow in the order of their edges, which [`refined`](Self::refined) has too. Named sets keep their
+    /// lists: their edges are named by their ends.
+    pub fn of_order(self, order: usize) -> Option<Self> {
+        let is_meant = |other: &&Element| other.dimension == self.dimension() && other.order == order;
+        let element = Element::ALL.into_iter().find(is_meant)?;
+        if element == self.element {
+            return Some(self);
+        }
+        let ends =
+            |nodes: &[usize]| element.edges.iter().map(|edge| edge.map(|corner| nodes[corner])).collect::<Vec<_>>();
+        let edges = distinct_edges(self.corners().flat_map(ends));
+        let (mut vertices, mut nodes, count) = (self.vertices.clone(), Vec::new(), self.vertices.len());
+        vertices.extend(edges.iter().map(|&[a, b]| 0.5 * (self.vertices[a] + self.vertices[b])));
+        for corners in self.corners() {
+            nodes.extend(corners);
+            let number =
+                |[a, b]: [usize; 2]| edges.binary_search(&[a.min(b), a.max(b)]).expect("every edge is in the list");
+            nodes.extend(ends(corners).into_iter().map(|edge| count + number(edge)));
+        }
+        Some(Self { element, vertices, nodes, ..self })
     }
 }
 
 impl From<TetrahedralMesh> for BodyMesh {
     fn from(mesh: TetrahedralMesh) -> Self {
-        Self::Solid(mesh)
+        Self::solid(mesh)
     }
+}
+
+/// Evaluates an expression with the nodes of each element of a [`BodyMesh`] as arrays: code that is compiled for each number of nodes.
+#[macro_export]
+macro_rules! with_elements {
+    ($mesh:expr, $elements:ident => $value:expr) => {{
+        let mesh: &$crate::BodyMesh = $mesh;
+        if let Some($elements) = mesh.arrays::<3>() {
+            $value
+        } else if let Some($elements) = mesh.arrays::<4>() {
+            $value
+        } else if let Some($elements) = mesh.arrays::<6>() {
+            $value
+        } else {
+            unreachable!("no element has {} nodes", mesh.element().nodes())
+        }
+    }};
 }

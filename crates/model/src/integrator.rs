@@ -30,6 +30,8 @@ pub enum Integrator {
     GeneralizedAlpha,
     /// Backward differentiation formula of two steps, second order: ends vibrations faster than the step.
     Bdf2,
+    /// Bathe's method of two stages, second order: ends vibrations faster than the step, damps slow ones far less than `bdf2`.
+    Bathe,
     /// Position-based dynamics: lengths of edges and volumes of elements, without moduli; first order.
     Pbd,
     /// Extended position-based dynamics, first order; sweeps over the elements converge to `implicit_euler`.
@@ -82,7 +84,7 @@ pub const CONSISTENT_MASS: usize = 2000;
 
 impl Integrator {
     /// All methods, with what is known about them.
-    pub const FACTS: [(Self, Facts); 16] = {
+    pub const FACTS: [(Self, Facts); 17] = {
         use ContactTreatment::{Barrier, Impulses, Projection};
         use Family::{Equilibrium, Explicit, Linearized, Newton, Rounds, Sweeps};
         const fn facts(
@@ -119,6 +121,7 @@ impl Integrator {
                 facts("generalized_alpha", "generalized-α", Newton, Some(2), false, Some(Barrier)),
             ),
             (Self::Bdf2, facts("bdf2", "BDF2", Newton, Some(2), false, Some(Barrier))),
+            (Self::Bathe, facts("bathe", "Bathe", Newton, Some(2), false, None)),
             (Self::Pbd, facts("pbd", "PBD", Sweeps, Some(1), false, Some(Projection))),
             (Self::Xpbd, facts("xpbd", "XPBD", Sweeps, Some(1), false, Some(Projection))),
             (Self::Vbd, facts("vbd", "VBD", Sweeps, Some(1), false, Some(Projection))),

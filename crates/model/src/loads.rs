@@ -9,7 +9,7 @@ use crate::{BodyMesh, LoadCurve};
 /// Dead load on a part of the surface: it keeps its direction and its sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
-    /// Nodes of each part of the boundary: triangles of a solid body, edges of a flat one, as in [`BodyMesh::outline`].
+    /// Nodes of each part of the boundary: triangles of a solid body, edges of a flat one, as in [`BodyMesh::faces`].
     pub faces: Vec<Vec<usize>>,
     /// Force per undeformed area, Pa.
     pub force_per_area: Vector3<f64>,
@@ -21,7 +21,7 @@ pub struct Traction {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pressure {
     /// Nodes of each part of the boundary: triangles of a solid body, counter-clockwise from outside; edges of a flat one, as in
-    /// [`BodyMesh::outline`].
+    /// [`BodyMesh::faces`].
     pub faces: Vec<Vec<usize>>,
     /// Force per deformed area, Pa; positive pushes inward.
     pub pressure: f64,

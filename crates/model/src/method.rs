@@ -1,6 +1,6 @@
 //! The numerical method, and the damping of a body.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::numbers::{check_finite, check_positive, problem};
 use crate::{Integrator, Precision, Refusal, SolverSettings};
@@ -163,7 +163,7 @@ impl Method {
 }
 
 /// The iterations of Newton's method in which element stiffnesses are projected to positive semi-definite ones.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Projection {
     /// The iterations whose exact matrix is not positive definite. Newton's method keeps its quadratic convergence.

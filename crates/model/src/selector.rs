@@ -110,24 +110,29 @@ pub fn nodes(table: &str, selector: &Selector, mesh: &BodyMesh) -> Result<Vec<us
     not_empty(table, selector, mesh, nodes, "node")
 }
 
-/// The boundary triangles that a selector of `table` names: those with all corners inside, or those of a set. They are as in
-/// `boundary`, counter-clockwise from outside, at least one.
-fn faces(
-    table: &str,
-    selector: &Selector,
-    mesh: &BodyMesh,
-    boundary: &[[usize; 3]],
-) -> Result<Vec<[usize; 3]>, Refusal> {
-    let faces = match selector {
+/// The faces of the boundary that a selector of `table` names, corners first, as in [`BodyMesh::faces`]: those with all corners inside, or those
+/// of a set. At least one.
+pub fn loaded_faces(table: &str, selector: &Selector, shape: &Shape) -> Result<Vec<Vec<usize>>, Refusal> {
+    let (mesh, mut faces) = (&shape.mesh, shape.faces());
+    let corners = mesh.dimension();
+    let [kind, one] =
+        if corners == 3 { ["triangles", "triangle of the boundary"] } else { ["edges", "edge of the outline"] };
+    let wanted = match selector {
         Selector::Set(name) => {
             let set = set(table, name, mesh)?;
-            if set.faces.is_empty() {
-                let text = format!("is {name:?}, which has {} and no triangles; name a set of triangles", set.counts());
+            let wanted = if corners == 3 { set.faces.as_flattened() } else { set.edges.as_flattened() };
+            if wanted.is_empty() {
+                let text = format!("is {name:?}, which has {} and no {kind}; name a set of {kind}", set.counts());
                 return Err(Refusal::new(format!("{table}.set"), text));
             }
-            of_boundary(&format!("{table}.set"), &set.faces, boundary)?
+            wanted
         }
-        Selector::Faces(faces) => of_boundary(&format!("{table}.faces"), faces, boundary)?,
+        Selector::Faces(wanted) if corners == 3 => wanted.as_flattened(),
+        Selector::Edges(wanted) if corners == 2 => wanted.as_flattened(),
+        Selector::Faces(_) => {
+            let text = "names triangles of the boundary, and a flat body has edges; name them by edges";
+            return Err(Refusal::new(format!("{table}.faces"), text));
+        }
         Selector::Edges(_) => {
             let text = "names edges of an outline, and a solid body has triangles; name them by faces";
             return Err(Refusal::new(format!("{table}.edges"), text));
@@ -135,47 +140,20 @@ fn faces(
         Selector::Region(_) | Selector::Nodes(_) => {
             let mut is_selected = vec![false; mesh.vertices().len()];
             nodes(table, selector, mesh)?.into_iter().for_each(|node| is_selected[node] = true);
-            boundary.iter().filter(|face| face.iter().all(|&node| is_selected[node])).copied().collect()
+            faces.retain(|face| face[..corners].iter().all(|&node| is_selected[node]));
+            return not_empty(table, selector, mesh, faces, one);
         }
     };
-    not_empty(table, selector, mesh, faces, "triangle of the boundary")
-}
-
-/// The edges of a flat body's outline that a selector of `table` names, as in [`BodyMesh::outline`]: those with both ends inside, or those
-/// of a set. At least one.
-fn edges(table: &str, selector: &Selector, mesh: &BodyMesh) -> Result<Vec<Vec<usize>>, Refusal> {
-    let mut outline = mesh.outline();
-    match selector {
-        Selector::Set(name) => {
-            let set = set(table, name, mesh)?;
-            if set.edges.is_empty() {
-                let text = format!("is {name:?}, which has {} and no edges; name a set of edges", set.counts());
-                return Err(Refusal::new(format!("{table}.set"), text));
-            }
-            outline.retain(|edge| set.edges.contains(&[edge[0].min(edge[1]), edge[0].max(edge[1])]));
-        }
-        Selector::Faces(_) => {
-            let text = "names triangles of the boundary, and a flat body has edges; name them by edges";
-            return Err(Refusal::new(format!("{table}.faces"), text));
-        }
-        Selector::Edges(wanted) => {
-            outline = of_outline(&format!("{table}.edges"), wanted, outline)?;
-        }
-        Selector::Region(_) | Selector::Nodes(_) => {
-            let selected: HashSet<usize> = nodes(table, selector, mesh)?.into_iter().collect();
-            outline.retain(|edge| edge[..2].iter().all(|node| selected.contains(node)));
-        }
+    let keys: HashSet<_> = wanted.chunks_exact(corners).map(sorted).collect();
+    faces.retain(|face| keys.contains(&sorted(&face[..corners])));
+    let known: HashSet<_> = faces.iter().map(|face| sorted(&face[..corners])).collect();
+    let other = wanted.chunks_exact(corners).find(|face| !known.contains(&sorted(face)));
+    // A set of edges of a flat body may have inner ones.
+    if let Some(face) = other.filter(|_| corners == 3 || !matches!(selector, Selector::Set(_))) {
+        let text = format!("names {face:?}, which is no {one}; correct it");
+        return Err(Refusal::new(format!("{table}.{}", selector.key()), text));
     }
-    not_empty(table, selector, mesh, outline, "edge of the outline")
-}
-
-/// The nodes of each part of the surface that a selector of `table` names: triangles of a solid body, edges of a flat one.
-pub fn loaded_faces(table: &str, selector: &Selector, shape: &Shape) -> Result<Vec<Vec<usize>>, Refusal> {
-    if shape.mesh.is_flat() {
-        return edges(table, selector, &shape.mesh);
-    }
-    let triangles = faces(table, selector, &shape.mesh, &shape.boundary)?;
-    Ok(triangles.into_iter().map(Vec::from).collect())
+    not_empty(table, selector, mesh, faces, one)
 }
 
 /// The elements that a selector of `table` names: those whose centroid lies inside, those of a set, or those of which all nodes
@@ -188,7 +166,7 @@ pub fn elements(table: &str, selector: &Selector, mesh: &BodyMesh) -> Result<Vec
         Selector::Set(name) => {
             let set = set(table, name, mesh)?;
             if set.elements.is_empty() {
-                let kind = mesh.kind();
+                let kind = mesh.element().name;
                 let text = format!("is {name:?}, which has {} and no {kind}; name a set of {kind}", set.counts());
                 return Err(Refusal::new(format!("{table}.set"), text));
             }
@@ -245,32 +223,8 @@ fn set<'a>(table: &str, name: &str, mesh: &'a BodyMesh) -> Result<&'a MeshSet, R
     })
 }
 
-/// The triangles of the boundary with these nodes, in the order of the boundary. Refuses a triangle that is not on the boundary.
-fn of_boundary(field: &str, wanted: &[[usize; 3]], boundary: &[[usize; 3]]) -> Result<Vec<[usize; 3]>, Refusal> {
-    let keys: HashSet<_> = wanted.iter().map(sorted).collect();
-    let faces: Vec<_> = boundary.iter().filter(|face| keys.contains(&sorted(face))).copied().collect();
-    let known: HashSet<_> = faces.iter().map(sorted).collect();
-    match wanted.iter().find(|face| !known.contains(&sorted(face))) {
-        Some(face) => {
-            Err(Refusal::new(field, format!("names {face:?}, which is no triangle of the boundary; correct it")))
-        }
-        None => Ok(faces),
-    }
-}
-
-/// The edges of an outline with these ends, in the order of the outline. Refuses an edge that is not on it.
-fn of_outline(field: &str, wanted: &[[usize; 2]], outline: Vec<Vec<usize>>) -> Result<Vec<Vec<usize>>, Refusal> {
-    let ends = |a: usize, b: usize| [a.min(b), a.max(b)];
-    let keys: HashSet<_> = wanted.iter().map(|&[a, b]| ends(a, b)).collect();
-    let known: HashSet<_> = outline.iter().map(|edge| ends(edge[0], edge[1])).collect();
-    if let Some(edge) = wanted.iter().find(|&&[a, b]| !known.contains(&ends(a, b))) {
-        return Err(Refusal::new(field, format!("names {edge:?}, which is no edge of the outline; correct it")));
-    }
-    Ok(outline.into_iter().filter(|edge| keys.contains(&ends(edge[0], edge[1]))).collect())
-}
-
-fn sorted(face: &[usize; 3]) -> [usize; 3] {
-    let mut key = *face;
+fn sorted(nodes: &[usize]) -> Vec<usize> {
+    let mut key = nodes.to_vec();
     key.sort_unstable();
     key
 }

@@ -1,4 +1,4 @@
-//! The trait between a pipeline and the window, the headless loop and the reports.
+//! The traits between a pipeline and the window, the headless loop and the reports.
 
 mod checkpoint;
 mod failure;
@@ -17,6 +17,7 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use fem_mesh::SurfaceMesh;
 
 use crate::BodyMesh;
+use crate::element::Element;
 
 pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
@@ -29,7 +30,7 @@ pub use plastic_flow::PlasticFlow;
 pub use pull::{Click, Pull};
 
 /// A simulation of one body, whichever pipeline computes it. Lengths are in m, times in s, energies in J.
-pub trait Simulation: Send {
+pub trait Simulation: Interactive + Diagnostics + Send {
     /// The scene's name, for titles and statistics.
     fn name(&self) -> &str;
 
@@ -54,11 +55,6 @@ pub trait Simulation: Send {
     /// Time step, s.
     fn dt(&self) -> f64;
 
-    /// Number of equal substeps in which a step is computed.
-    fn substeps(&self) -> usize {
-        1
-    }
-
     /// Advances by one time step. A step that fails leaves the state as it was before the substep that failed; after one that has gained
     /// energy ([`Cause::EnergyGained`]) it may be the state at its end.
     fn step(&mut self) -> Result<(), Failure>;
@@ -76,68 +72,31 @@ pub trait Simulation: Send {
     /// Kinetic and potential energy now, J.
     fn energies(&self) -> Energies;
 
-    /// The account of the energy supplied, stored and dissipated; `None` in statics, and for a pipeline that does not compute it.
-    fn energy_ledger(&self) -> Option<EnergyLedger> {
-        None
-    }
-
-    /// The failure of a run that has gained energy which nothing explains, and has not failed because of it yet: a run is judged every few
-    /// steps, and has ended between.
-    fn unexplained_energy(&self) -> Option<Failure> {
-        None
-    }
-
-    /// Sum of the estimated errors of the displacements in the last step, m; `None` without adaptive steps.
-    fn estimated_error(&self) -> Option<f64> {
-        None
-    }
-
-    /// Part of the loads and prescribed motions that the load steps so far have applied; `None` for a motion.
-    fn load_factor(&self) -> Option<f64> {
-        None
-    }
-
     /// Minimum of J = det F over all elements now, and its element.
     fn min_J(&self) -> (f64, usize);
-
-    /// Number of elements with det F ≤ 0 now; zero for a pipeline in which an inverted element ends the run.
-    fn inverted_elements(&self) -> usize {
-        0
-    }
-
-    /// The longest stable time step of an explicit method for small vibrations about the undeformed body, s: zero for a method that
-    /// is unstable at any time step, `None` for implicit methods.
-    fn critical_time_step(&self) -> Option<f64> {
-        None
-    }
-
-    /// Returns true if elements have a stress: those of a mass-spring body have none.
-    fn has_stress(&self) -> bool {
-        true
-    }
 
     /// Cauchy stress of each element now, Pa; empty where elements have none.
     fn stresses(&self) -> Vec<Matrix3<f64>>;
 
-    /// Cauchy stress at each quadrature point now, Pa: those of the first element, then those of the next, as in
-    /// [`BodyMesh::points`](crate::BodyMesh::points).
-    fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
-        self.stresses()
-    }
-
-    /// The number of the material of each element; empty if all have the same.
-    fn material_of_elements(&self) -> Vec<usize> {
-        Vec::new()
-    }
-
-    /// Plastic flow of the body; `None` for a body without plasticity.
-    fn plastic_flow(&self) -> Option<PlasticFlow> {
-        None
-    }
-
     /// Name of the integrator in use, as scene files spell it.
     fn integrator(&self) -> &'static str;
 
+    /// Number of display vertices that lie in no tetrahedron.
+    fn display_vertices_outside(&self) -> usize;
+
+    /// `(3n)` sum of all forces on each node now, N: elastic, external and damping forces, and those of springs. It is M a at a
+    /// free node, zero in equilibrium, and M a less the reaction at a constrained one. `None` for a pipeline that does not compute it.
+    fn nodal_forces(&self) -> Option<DVector<f64>>;
+
+    /// Work done since the start; a reset does not clear it.
+    fn counters(&self) -> Counters;
+
+    /// The parts that the scene builds and those that it leaves out.
+    fn parts(&self) -> Vec<Part>;
+}
+
+/// What a user may change and touch while a simulation runs.
+pub trait Interactive {
     /// Switches to the pipeline's next integrator, and returns its name.
     fn next_integrator(&mut self) -> &'static str;
 
@@ -163,64 +122,151 @@ pub trait Simulation: Send {
 
     /// Pulls at nodes in place of the scene's drag, until `None` is given.
     fn pull(&mut self, pull: Option<Pull>);
+}
 
-    /// Number of display vertices that lie in no tetrahedron.
-    fn display_vertices_outside(&self) -> usize {
+/// The findings of a pipeline about its run, beside the motion. A pipeline without them is [`Undiagnosed`].
+pub trait Diagnostics {
+    /// Number of equal substeps in which a step is computed.
+    fn substeps(&self) -> usize;
+
+    /// The account of the energy supplied, stored and dissipated; `None` in statics, and for a pipeline that does not compute it.
+    fn energy_ledger(&self) -> Option<EnergyLedger>;
+
+    /// The failure of a run that has gained energy which nothing explains, and has not failed because of it yet: a run is judged every few
+    /// steps, and has ended between.
+    fn unexplained_energy(&self) -> Option<Failure>;
+
+    /// Sum of the estimated errors of the displacements in the last step, m; `None` without adaptive steps.
+    fn estimated_error(&self) -> Option<f64>;
+
+    /// Part of the loads and prescribed motions that the load steps so far have applied; `None` for a motion.
+    fn load_factor(&self) -> Option<f64>;
+
+    /// Number of elements with det F ≤ 0 now; zero for a pipeline in which an inverted element ends the run.
+    fn inverted_elements(&self) -> usize;
+
+    /// The longest stable time step of an explicit method for small vibrations about the undeformed body, s: zero for a method that
+    /// is unstable at any time step, `None` for implicit methods.
+    fn critical_time_step(&self) -> Option<f64>;
+
+    /// Returns true if elements have a stress: those of a mass-spring body have none.
+    fn has_stress(&self) -> bool;
+
+    /// Cauchy stress at each quadrature point now, Pa: those of the first element, then those of the next, as in
+    /// [`BodyMesh::points`](crate::BodyMesh::points).
+    fn stresses_at_points(&self) -> Vec<Matrix3<f64>>;
+
+    /// The number of the material of each element; empty if all have the same.
+    fn material_of_elements(&self) -> Vec<usize>;
+
+    /// Plastic flow of the body; `None` for a body without plasticity.
+    fn plastic_flow(&self) -> Option<PlasticFlow>;
+
+    /// Reaction forces now, of `[fixed]` and of each `[[prescribed]]`; empty for a pipeline that does not compute them.
+    fn reactions(&self) -> Vec<Reaction>;
+
+    /// The forces of `[[planes]]` now; empty without obstacles.
+    fn contacts(&self) -> Vec<PlaneContact>;
+
+    /// Remarks on the scene as it was built, one line each, to be shown before the first step.
+    fn notes(&self) -> Vec<String>;
+
+    /// Reasons why the result of the run so far may mislead, one line each, with the remedy.
+    fn warnings(&self) -> Vec<String>;
+
+    /// The obstacles where they are now; empty without obstacles.
+    fn planes(&self) -> Vec<Plane>;
+
+    /// Weight of the body, N; `None` without gravity, and for a pipeline that does not compute it.
+    fn weight(&self) -> Option<f64>;
+
+    /// `(3n)` force of the obstacles on each node in the last step, N; `None` without obstacles.
+    fn contact_forces(&self) -> Option<DVector<f64>>;
+
+    /// The largest relative change that the normal forces of friction, which a step keeps fixed, were left with; `None` for a method
+    /// without such forces.
+    fn lag_residual(&self) -> Option<f64>;
+}
+
+/// A pipeline that computes the motion alone: every element has one stress and one material, and there are no obstacles.
+pub trait Undiagnosed {}
+
+impl<S: Undiagnosed + Simulation> Diagnostics for S {
+    fn substeps(&self) -> usize {
+        1
+    }
+
+    fn energy_ledger(&self) -> Option<EnergyLedger> {
+        None
+    }
+
+    fn unexplained_energy(&self) -> Option<Failure> {
+        None
+    }
+
+    fn estimated_error(&self) -> Option<f64> {
+        None
+    }
+
+    fn load_factor(&self) -> Option<f64> {
+        None
+    }
+
+    fn inverted_elements(&self) -> usize {
         0
     }
 
-    /// Reaction forces now, of `[fixed]` and of each `[[prescribed]]`; empty for a pipeline that does not compute them.
+    fn critical_time_step(&self) -> Option<f64> {
+        None
+    }
+
+    fn has_stress(&self) -> bool {
+        true
+    }
+
+    fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
+        self.stresses()
+    }
+
+    fn material_of_elements(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn plastic_flow(&self) -> Option<PlasticFlow> {
+        None
+    }
+
     fn reactions(&self) -> Vec<Reaction> {
         Vec::new()
     }
 
-    /// The forces of `[[planes]]` now; empty without obstacles.
     fn contacts(&self) -> Vec<PlaneContact> {
         Vec::new()
     }
 
-    /// Remarks on the scene as it was built, one line each, to be shown before the first step.
     fn notes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Reasons why the result of the run so far may mislead, one line each, with the remedy.
     fn warnings(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// The obstacles where they are now; empty without obstacles.
     fn planes(&self) -> Vec<Plane> {
         Vec::new()
     }
 
-    /// Weight of the body, N; `None` without gravity, and for a pipeline that does not compute it.
     fn weight(&self) -> Option<f64> {
         None
     }
 
-    /// `(3n)` force of the obstacles on each node in the last step, N; `None` without obstacles.
     fn contact_forces(&self) -> Option<DVector<f64>> {
         None
     }
 
-    /// The largest relative change that the normal forces of friction, which a step keeps fixed, were left with; `None` for a method
-    /// without such forces.
     fn lag_residual(&self) -> Option<f64> {
         None
     }
-
-    /// `(3n)` sum of all forces on each node now, N: elastic, external and damping forces, and those of springs. It is M a at a
-    /// free node, zero in equilibrium, and M a less the reaction at a constrained one. `None` for a pipeline that does not compute it.
-    fn nodal_forces(&self) -> Option<DVector<f64>> {
-        None
-    }
-
-    /// Work done since the start; a reset does not clear it.
-    fn counters(&self) -> Counters;
-
-    /// The parts that the scene builds and those that it leaves out.
-    fn parts(&self) -> Vec<Part>;
 }
 
 /// The smallest number of substeps with which a step of `dt` is stable, given the critical time step, s; no number is enough if
@@ -246,6 +292,15 @@ pub struct Shape {
 }
 
 impl Shape {
+    /// The faces of the boundary, as in [`BodyMesh::faces`].
+    pub fn faces(&self) -> Vec<Vec<usize>> {
+        match self.mesh.element() {
+            // The boundary has been found before.
+            Element { dimension: 3, triangles: [_], .. } => self.boundary.iter().map(|face| face.to_vec()).collect(),
+            _ => self.mesh.faces(),
+        }
+    }
+
     /// Distance from a point of the boundary within which its nearest corner lies, m: the longest edge over √3.
     /// `x` are the positions of the nodes now, m.
     pub fn pick_radius(&self, x: &[Vector3<f64>]) -> f64 {

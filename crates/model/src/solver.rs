@@ -1,6 +1,6 @@
 //! Linear solvers and number types.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Settings of the linear solver.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct SolverSettings {
 }
 
 /// Number type that the engine computes with.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
     /// 8 bytes, 16 digits.
@@ -27,7 +27,7 @@ pub enum Precision {
 }
 
 /// Linear solvers.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum SolverKind {
     /// Sparse Cholesky factorization of a symmetric positive definite matrix.
@@ -43,7 +43,7 @@ pub enum SolverKind {
 }
 
 /// Preconditioners of the conjugate gradients.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Preconditioner {
     /// Block Jacobi: the inverse of each node's 3×3 block.

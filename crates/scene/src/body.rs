@@ -2,20 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use fem_mesh::{SurfaceMesh, TetrahedralMesh};
 use fem_model::simulation::Shape;
 use fem_model::{Body, BodyMesh, Refusal, density_factors};
 
 use crate::check::flat;
-use crate::meshes::{elements, flat_body, mesh_error, scale, surface};
+use crate::meshes::{elements, flat_body, mesh_error, surface};
 use crate::paths::find;
-use crate::picture;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
     contact, curve, damping, dirichlet_conditions, drag, initial_velocity, nodal_forces, plasticity, regions, springs,
     surface_loads,
 };
-use crate::{Scene, SceneError};
+use crate::{Scene, SceneError, picture};
 
 /// Reads and checks the meshes of a scene, and builds the body. A mesh file is searched beside the scene, then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
@@ -50,7 +48,7 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
 }
 
 fn values(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, Refusal> {
-    let check = if shape.mesh.is_flat() { flat::check } else { flat::check_solid };
+    let check = if shape.mesh.dimension() == 2 { flat::check } else { flat::check_solid };
     check(scene)?;
     let mut body = Body::of_shape(shape, scene.material.value());
     let mesh = &body.shape.mesh;
@@ -68,6 +66,8 @@ fn values(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, Refusal> {
     body.plasticity = plasticity(scene);
     body.lumped_mass = scene.lumps_mass(mesh.vertices().len());
     body.nodal_forces = nodal_forces(scene, mesh)?;
+    body.fields = scene.fields();
+    body.fields.check_on(mesh)?;
     body.springs = springs(scene, mesh)?;
     body.drag = drag(scene, mesh)?;
     body.damping = damping(scene);
@@ -75,45 +75,26 @@ fn values(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, Refusal> {
     Ok(body)
 }
 
-/// Scales, checks and refines the mesh.
+/// Scales, checks and refines a mesh of linear elements, and gives them their order. Others, of a program's own, are what they are.
 fn checked(scene: &Scene, mesh: BodyMesh) -> Result<BodyMesh, SceneError> {
-    match mesh {
-        BodyMesh::Solid(mesh) => tetrahedra(scene, mesh).map(BodyMesh::Solid),
-        BodyMesh::Flat { triangles, thickness } => {
-            let triangles = in_plane(scene, triangles)?;
-            Ok(match scene.mesh.order {
-                2 => BodyMesh::Quadratic { triangles: fem_mesh::quadratic(triangles), thickness },
-                _ => BodyMesh::Flat { triangles, thickness },
-            })
-        }
-        // A body of a program's own, whose triangles are what they are.
-        BodyMesh::Quadratic { .. } => Ok(mesh),
-    }
-}
-
-fn in_plane(scene: &Scene, mesh: SurfaceMesh) -> Result<SurfaceMesh, SceneError> {
-    let mesh = scale(mesh, scene.mesh.scale);
-    let source = source(scene);
-    fem_mesh::check_plane(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
-    if scene.mesh.refine == 0 {
+    if mesh.element().order != 1 {
         return Ok(mesh);
     }
-    let refined = fem_mesh::refine_triangles(mesh, scene.mesh.refine, &source);
-    let checked = refined.and_then(|mesh| fem_mesh::check_plane(&mesh, &source).map(|()| mesh));
-    checked.map_err(|error| mesh_error(scene, "mesh.refine", error))
-}
-
-fn tetrahedra(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
-    let mesh = scale(mesh, scene.mesh.scale);
     let source = source(scene);
-    fem_mesh::check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
-    if scene.mesh.refine == 0 {
-        return Ok(mesh);
-    }
-    let refined = fem_mesh::refine(mesh, scene.mesh.refine, &source);
-    // Small elements far from the origin can lose their volume to rounding.
-    let checked = refined.and_then(|mesh| fem_mesh::check(&mesh, &source).map(|()| mesh));
-    checked.map_err(|error| mesh_error(scene, "mesh.refine", error))
+    let mesh = mesh.scaled(scene.mesh.scale).checked(&source).map_err(|error| mesh_error(scene, "mesh", error))?;
+    let refined = match scene.mesh.refine {
+        0 => Ok(mesh),
+        // Small elements far from the origin can lose their volume to rounding.
+        times => mesh.refined(times, &source).and_then(|mesh| mesh.checked(&source)),
+    };
+    let mesh = refined.map_err(|error| mesh_error(scene, "mesh.refine", error))?;
+    let (order, name) = (scene.mesh.order, mesh.element().name);
+    mesh.of_order(order as usize).ok_or_else(|| {
+        let text = format!(
+            "is {order}, and this body has {name}, which are linear; write 1, and refine = 1 for more elements"
+        );
+        scene.refuse("mesh.order", &text)
+    })
 }
 
 /// The name of the mesh in messages.

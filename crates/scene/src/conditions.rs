@@ -12,7 +12,7 @@ pub struct Conditions {
     /// `[fixed]` first if there is one, then each `[[prescribed]]` in order.
     pub dirichlet: Vec<DirichletCondition>,
     /// Of each `[[traction]]` in order, the nodes of its faces: triangles of a solid body, edges of a flat one, as in
-    /// [`BodyMesh::outline`](fem_model::BodyMesh::outline).
+    /// [`BodyMesh::faces`](fem_model::BodyMesh::faces).
     pub loaded: Vec<Vec<Vec<usize>>>,
 }
 

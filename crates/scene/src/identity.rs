@@ -61,14 +61,7 @@ fn add(key: &str, value: &Value, values: &mut BTreeMap<String, String>) {
         Value::Array(entries) if entries.iter().any(Value::is_table) => {
             entries.iter().enumerate().for_each(|(place, value)| add(&format!("{key}[{place}]"), value, values));
         }
-        Value::Integer(_)
-        | Value::Float(_)
-        | Value::String(_)
-        | Value::Boolean(_)
-        | Value::Datetime(_)
-        | Value::Array(_) => {
-            values.insert(key.to_owned(), text(value));
-        }
+        value => drop(values.insert(key.to_owned(), text(value))),
     }
 }
 

@@ -48,10 +48,7 @@ pub fn parse(text: &str, path: &Path) -> Result<Scene, SceneError> {
 
 fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, SceneError> {
     let mut source: Table = text.parse().map_err(|error| of_line(text, path, &error))?;
-    for change in overrides {
-        let refuse = |problem| SceneError::Override { option: change.to_string(), problem };
-        change.apply(&mut source).map_err(refuse)?;
-    }
+    apply(overrides, &mut source)?;
     let mut scene = match overrides {
         [] => toml::from_str(text).map_err(|error| of_line(text, path, &error))?,
         _ => overridden(text, path, &source, overrides)?,
@@ -63,6 +60,13 @@ fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, 
     scene.overrides = overrides.to_vec();
     scene.check()?;
     Ok(scene)
+}
+
+fn apply(overrides: &[Override], source: &mut Table) -> Result<(), SceneError> {
+    overrides.iter().try_for_each(|change| {
+        let refuse = |problem| SceneError::Override { option: change.to_string(), problem };
+        change.apply(source).map_err(refuse)
+    })
 }
 
 /// Reads a scene from its tables after the overrides.
@@ -87,10 +91,7 @@ impl Scene {
     /// integrator, time step or number of steps than that of the file stays.
     pub fn changed(&self, changes: &[Override]) -> Result<Self, SceneError> {
         let mut source = self.source.clone();
-        for change in changes {
-            let refuse = |problem| SceneError::Override { option: change.to_string(), problem };
-            change.apply(&mut source).map_err(refuse)?;
-        }
+        apply(changes, &mut source)?;
         let text = self.source.to_string();
         let mut scene = overridden(&text, &self.path, &source, changes)?;
         let is_changed = |field: &str| changes.iter().any(|change| change.concerns(field));
@@ -113,9 +114,7 @@ impl Scene {
         scene.check()?;
         Ok(scene)
     }
-}
 
-impl Scene {
     /// Checks the tables again after a change, such as another integrator. Returns the first problem.
     pub fn check(&self) -> Result<(), SceneError> {
         check(self).map_err(|refusal| self.refused(refusal))

@@ -6,6 +6,7 @@ use fem_mesh::generate::odt::improve_inside;
 use fem_mesh::generate::{Solid, stuff_graded};
 use fem_mesh::{AnyMesh, MeshError, MeshFile, Problem, SurfaceMesh};
 
+use crate::error::of_field;
 use crate::load::line_of;
 use crate::paths::find;
 use crate::tables::MeshTable;
@@ -24,7 +25,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
     match &scene.mesh {
         MeshTable { file: Some(file), .. } if fem_mesh::is_surface(file) => {
             let mesh = fem_mesh::read_tetrahedra(&find(scene, data, file));
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.file", error))
+            mesh.map(BodyMesh::solid).map_err(|error| mesh_error(scene, "mesh.file", error))
         }
         MeshTable { file: Some(file), .. } => {
             let found = read(&find(scene, data, file), file, notes);
@@ -47,18 +48,18 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
         }
         MeshTable { cuboid: Some(cuboid), .. } => {
             let mesh = fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit, cuboid.pattern);
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.box", error))
+            mesh.map(BodyMesh::solid).map_err(|error| mesh_error(scene, "mesh.box", error))
         }
         MeshTable { surface: Some(surface), .. } => {
             let path = find(scene, data, &surface.file);
             let triangles = read(&path, &surface.file, notes).and_then(|found| found.triangles(&path));
             let mesh = triangles.and_then(|triangles| {
-                let mesh = stuff_graded(&triangles, surface.edge, surface.grading)
+                let mesh = stuff_graded(&triangles, surface.edge, surface.grading, &|_| ())
                     .map_err(|error| MeshError::in_file(&path, Problem::Stuffing(error)))?;
                 fem_mesh::check(&mesh, &path)?;
-                Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
+                Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles), &|_| ()).mesh)
             });
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
+            mesh.map(BodyMesh::solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
         }
         MeshTable { rectangle: Some(rectangle), .. } => {
             let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit, rectangle.pattern);
@@ -71,7 +72,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
 
 /// A flat body of the scene's thickness.
 pub(crate) fn flat_body(scene: &Scene, triangles: SurfaceMesh) -> BodyMesh {
-    BodyMesh::Flat { triangles, thickness: scene.material.thickness.unwrap_or(1.0) }
+    BodyMesh::flat(triangles, scene.material.thickness.unwrap_or(1.0))
 }
 
 /// The name of a mesh file without its extensions: `wheel` of `meshes/wheel.node.gz`.
@@ -112,7 +113,7 @@ pub(crate) fn scale<const N: usize>(mut mesh: fem_mesh::Mesh<3, N>, factor: f64)
 /// The error of a mesh, at the line of its field or with the override that set it.
 pub(crate) fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -> SceneError {
     if let Some(change) = scene.overrides.iter().rev().find(|change| change.concerns(field)) {
-        return SceneError::Override { option: change.to_string(), problem: format!("{field}: {error}") };
+        return SceneError::Override { option: change.to_string(), problem: of_field(field, &error) };
     }
     SceneError::Mesh { file: scene.path.clone(), line: line_of(&scene.text.0, field), field, error }
 }

@@ -38,10 +38,10 @@ impl fmt::Display for Override {
 }
 
 impl Override {
-    /// An override that sets a key, such as `time.dt`, to a number, a text, or a list of them.
+    /// An override that sets a key, such as `time.dt`, to a number, a text, a list of them, or a table.
     pub fn to(path: &str, value: impl Serialize) -> Self {
         // Maps with other keys than texts alone have no TOML.
-        let value = Value::try_from(value).expect("numbers, texts and lists have TOML values");
+        let value = Value::try_from(value).expect("numbers, texts, lists and tables have TOML values");
         let text = format!("{path}={value}");
         Self { path: path.split('.').map(str::to_owned).collect(), value: Some(value), text }
     }

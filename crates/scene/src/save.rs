@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use toml::{Table, Value};
 
+use crate::check::missing_tables;
 use crate::load::{MOST_BYTES, parse};
 use crate::paths::move_paths;
 use crate::{Scene, SceneError};
@@ -14,7 +15,7 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 28] = [
+const ORDER: [&str; 29] = [
     "about",
     "pipeline",
     "mesh",
@@ -26,6 +27,7 @@ const ORDER: [&str; 28] = [
     "body_force",
     "traction",
     "force",
+    "central_gravity",
     "springs",
     "fixed",
     "prescribed",
@@ -47,15 +49,11 @@ const ORDER: [&str; 28] = [
 
 /// A scene that was not saved.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum SaveError {
     /// The path cannot be that of a new scene file.
     #[error("{}: {problem}", file.display())]
-    Path {
-        /// The path.
-        file: PathBuf,
-        /// The problem and its remedy.
-        problem: String,
-    },
+    Path { file: PathBuf, problem: String },
     /// The text does not read back to the scene.
     #[error("the scene was not saved, as its file would not be read: {0}")]
     Unreadable(SceneError),
@@ -71,33 +69,10 @@ impl Scene {
         text(self, &self.tables())
     }
 
-    /// Returns true if all tables and keys are the same, whatever the file and the overrides that gave them.
-    pub fn has_same_tables(&self, other: &Self) -> bool {
-        let bare = |scene: &Self| Self {
-            name: String::new(),
-            path: PathBuf::new(),
-            source: Table::new(),
-            overrides: Vec::new(),
-            ..scene.clone()
-        };
-        bare(self) == bare(other)
-    }
-
     /// The keys and values as they are now: with the integrator, time step and number of steps in use.
     fn tables(&self) -> Table {
         let mut tables = self.source.clone();
-        let optional = [
-            ("static", self.statics.is_some()),
-            ("newmark", self.newmark.is_some()),
-            ("generalized_alpha", self.generalized_alpha.is_some()),
-            ("newton", self.newton.is_some()),
-            ("iterations", self.iterations.is_some()),
-            ("solver", self.solver.is_some()),
-            ("contact", self.contact.is_some()),
-            ("damping", self.damping.is_some()),
-            ("energy", self.energy.is_some()),
-        ];
-        optional.iter().filter(|(_, is_there)| !is_there).for_each(|(name, _)| drop(tables.remove(*name)));
+        missing_tables(self).for_each(|name| drop(tables.remove(name)));
         tables.retain(|_, value| !value.as_array().is_some_and(Vec::is_empty));
         if let Some(Value::Table(time)) = tables.get_mut("time") {
             time.insert("integrator".to_owned(), Value::from(self.time.integrator.name()));

@@ -3,10 +3,11 @@
 //! References in time ([`mod@reference`]) and in space ([`space`]) come from methods that are not under study.
 //!
 //! ```
-//! use fem_study::space::manufactured::{self, Family};
+//! use fem_model::element::Element;
+//! use fem_study::space::manufactured;
 //!
 //! // A manufactured solution on two meshes: halving the edges divides the error of linear tetrahedra by about four.
-//! let [coarse, fine] = [4, 8].map(|cells| manufactured::solve("linear", Family::Tetrahedra, cells));
+//! let [coarse, fine] = [4, 8].map(|cells| manufactured::solve("linear", Element::ALL[0], cells));
 //! let order = (coarse?.l2 / fine?.l2).log2();
 //! assert!(order > 1.5, "{order}");
 //! # Ok::<(), String>(())

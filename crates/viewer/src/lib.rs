@@ -24,46 +24,21 @@
 
 #![deny(missing_docs)]
 
-mod camera;
-mod change;
-mod color_scale;
-mod display;
-mod facets;
-mod frame;
-mod geometry;
-mod history;
-mod interaction;
-mod legend;
-mod obstacles;
-mod offscreen;
-mod options;
-mod pacing;
-mod paint;
+mod editing;
 mod panel;
 mod panics;
-mod parameter_rows;
-mod pictures;
-mod plot;
-mod request;
-mod scene_changes;
-pub mod scene_edits;
-mod scene_parameters;
-mod scene_view;
-mod session;
+mod picture;
 mod setup;
-mod shader;
-mod surface;
-mod texture;
-mod theme;
 mod window;
 mod worker;
 
-pub use change::{Change, Edit, Effect};
-pub use display::display_available;
-pub use offscreen::{NoAdapter, OffscreenRenderer};
-pub use options::{Builder, Editing, WindowOptions};
-pub use pictures::{FRAMES_PER_SECOND, NotWritten, Picture, Recorder};
-pub use scene_view::DisplayedSurface;
-pub use window::{NoWindow, Outcome, WindowError, open};
-pub use worker::Stop;
-pub use worker::scene_editor::{Motion, SceneEditor, SceneSetup};
+pub use editing::change::{Change, Edit, Effect};
+pub use editing::editor::{Builder, Editing, Motion, SceneEditor, SceneSetup};
+pub use editing::edits as scene_edits;
+pub use picture::display::display_available;
+pub use picture::files::{FRAMES_PER_SECOND, NotWritten, Picture, Recorder};
+pub use picture::offscreen::{NoAdapter, OffscreenRenderer};
+pub use picture::scene_view::DisplayedSurface;
+pub use window::options::WindowOptions;
+pub use window::{NoWindow, WindowError, open};
+pub use worker::{Outcome, Stop};

@@ -12,7 +12,7 @@ use super::{Files, HandoutError, manifest, stub};
 use crate::rubric::{Role, Rubric};
 
 /// Files and folders that are handed out whole. The tests of the repository, its map and its history are not.
-const WHOLE: [&str; 17] = [
+const WHOLE: [&str; 18] = [
     ".gitignore",
     "LICENSE-APACHE",
     "LICENSE-MIT",
@@ -20,6 +20,7 @@ const WHOLE: [&str; 17] = [
     "Cargo.toml",
     "Cargo.lock",
     "crates/chart",
+    "crates/cli",
     "crates/features",
     "crates/mesh",
     "crates/model",
@@ -33,12 +34,8 @@ const WHOLE: [&str; 17] = [
 ];
 
 /// Parts of these folders that show what the engine computes, or write and compare pages that students do not receive.
-const LEFT_OUT: [&str; 4] =
-    ["src/demo/study", "include-docs/methods.md", "crates/scene/examples", "crates/scene/tests/reference.rs"];
+const LEFT_OUT: [&str; 3] = ["include-docs/methods.md", "crates/scene/examples", "crates/scene/tests/reference.rs"];
 
-const ENGINE: &str = include_str!("../../handout/engine.rs");
-const BATCH: &str = include_str!("../../handout/batch.rs");
-const STUDY: &str = include_str!("../../handout/study.rs");
 const README: &str = include_str!("../../handout/README.md");
 const PROGRAM: &str = include_str!("../../handout/main.rs");
 
@@ -74,7 +71,13 @@ pub fn collect(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
     })?;
     let has: Vec<_> = files.keys().cloned().collect();
     let is_there = |path: &str| has.iter().any(|found| found == Path::new(path));
-    edit(&mut files, "Cargo.toml", |text| manifest::root_manifest(text, is_there))?;
+    let mut gone = Vec::new();
+    edit(&mut files, "crates/cli/Cargo.toml", |text| {
+        let (manifest, features) = manifest::program_manifest(text, is_there)?;
+        gone = features;
+        Ok(manifest)
+    })?;
+    edit(&mut files, "Cargo.toml", |text| manifest::root_manifest(text, is_there, &gone))?;
     files.insert("README.md".into(), readme(root, rubric)?.into_bytes());
     Ok(files)
 }
@@ -96,15 +99,12 @@ fn lenient(text: &str) -> Result<String, String> {
     Ok(text.replacen(STRICT, LENIENT, 1).replacen(FIRST, &format!("{OWN_NAME}{FIRST}"), 1))
 }
 
-/// The engine computes what students are to write, and its scenes run on nothing else.
+/// The engine computes what students are to write, and its scenes run on nothing else. The program does without the feature `engine`.
 fn leave_out_the_engine(files: &mut Files) {
     let needs_it = |path: &Path, text: &[u8]| {
         path.starts_with("data/scenes") && String::from_utf8_lossy(text).contains("pipeline = \"engine\"")
     };
     files.retain(|path, text| !LEFT_OUT.iter().any(|own| path.starts_with(own)) && !needs_it(path, text));
-    files.insert("src/demo/engine.rs".into(), ENGINE.into());
-    files.insert("src/demo/batch.rs".into(), BATCH.into());
-    files.insert("src/demo/study.rs".into(), STUDY.into());
 }
 
 /// Adds a file or a folder, without hidden files and build products.

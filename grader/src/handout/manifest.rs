@@ -42,8 +42,25 @@ fn add_crates(source: TokenStream, found: &mut BTreeSet<String>) {
     }
 }
 
-/// The root's `Cargo.toml` without the crates, features and tests that are not handed out; `has` tells whether a file is.
-pub fn root_manifest(manifest: &str, has: impl Fn(&str) -> bool) -> Result<String, String> {
+/// The manifest of the program, `crates/cli`, without the crates that are not handed out, and without the features that need them. Returns
+/// these as the root's features name them, too; `has` tells whether a file is handed out.
+pub fn program_manifest(manifest: &str, has: impl Fn(&str) -> bool) -> Result<(String, Vec<String>), String> {
+    let mut manifest: DocumentMut = manifest.parse().map_err(|error: TomlError| error.to_string())?;
+    let is_crate = |folder: &str| has(&format!("{}/Cargo.toml", folder.replacen("..", "crates", 1)));
+    let mut gone = Vec::new();
+    if let Some(dependencies) = manifest.get_mut("dependencies").and_then(Item::as_table_like_mut) {
+        gone = remove_crates(dependencies, is_crate);
+    }
+    let mut removed = Vec::new();
+    if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_like_mut) {
+        removed = remove_features(features, |part| is_of_crates(part, &gone));
+    }
+    Ok((manifest.to_string(), removed.iter().map(|feature| format!("fem-cli/{feature}")).collect()))
+}
+
+/// The root's `Cargo.toml` without the crates, features and tests that are not handed out, nor the features that switch on one that is
+/// `gone` from another package; `has` tells whether a file is handed out.
+pub fn root_manifest(manifest: &str, has: impl Fn(&str) -> bool, gone: &[String]) -> Result<String, String> {
     let mut manifest: DocumentMut = manifest.parse().map_err(|error: TomlError| error.to_string())?;
     let is_crate = |folder: &str| has(&format!("{folder}/Cargo.toml"));
     if let Some(members) = manifest["workspace"]["members"].as_array_mut() {
@@ -56,7 +73,7 @@ pub fn root_manifest(manifest: &str, has: impl Fn(&str) -> bool) -> Result<Strin
         }
     }
     if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_like_mut) {
-        remove_features(features, &removed);
+        remove_features(features, |part| gone.iter().any(|name| part == name) || is_of_crates(part, &removed));
     }
     for (kind, folder) in [("test", "tests"), ("bench", "benches"), ("example", "examples")] {
         if let Some(targets) = manifest.get_mut(kind).and_then(Item::as_array_of_tables_mut) {
@@ -94,28 +111,32 @@ fn remove_crates(dependencies: &mut dyn TableLike, is_crate: impl Fn(&str) -> bo
     missing
 }
 
-/// Removes the features that switch on a removed crate or a feature of it, and their names from the other features.
-fn remove_features(features: &mut dyn TableLike, removed: &[String]) {
-    let is_of = |part: &str, name: &str| {
-        part.strip_prefix("dep:") == Some(name) || part.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'))
-    };
-    let is_gone = |feature: &Item| {
-        let parts = feature.as_array().into_iter().flatten().filter_map(|part| part.as_str());
-        parts.into_iter().any(|part| removed.iter().any(|name| is_of(part, name)))
+/// Returns true if a part of a feature switches on one of these crates, or a feature of it.
+fn is_of_crates(part: &str, crates: &[String]) -> bool {
+    let name = part.strip_prefix("dep:").or(part.split_once('/').map(|(name, _)| name));
+    crates.iter().any(|removed| name == Some(removed))
+}
+
+/// Removes the features with a part that `is_gone`, and their names from the other features. Returns these names.
+fn remove_features(features: &mut dyn TableLike, is_gone: impl Fn(&str) -> bool) -> Vec<String> {
+    let has_gone = |feature: &Item| {
+        let mut parts = feature.as_array().into_iter().flatten().filter_map(|part| part.as_str());
+        parts.any(&is_gone)
     };
     let gone: Vec<String> =
-        features.iter().filter(|(_, feature)| is_gone(feature)).map(|(name, _)| name.to_owned()).collect();
+        features.iter().filter(|(_, feature)| has_gone(feature)).map(|(name, _)| name.to_owned()).collect();
     gone.iter().for_each(|name| drop(features.remove(name)));
     for (_, feature) in features.iter_mut() {
         if let Some(parts) = feature.as_array_mut() {
             parts.retain(|part| !gone.iter().any(|name| part.as_str() == Some(name)));
         }
     }
+    gone
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{root_manifest, with_locked_profiles, with_used_dependencies};
+    use super::{program_manifest, root_manifest, with_locked_profiles, with_used_dependencies};
 
     #[test]
     fn dependencies_that_no_source_names_are_removed() {
@@ -130,10 +151,24 @@ mod tests {
         let whole = "[workspace]\nmembers = [\"a\", \"b\"]\n\n[features]\ndefault = [\"b\", \"c\", \"window\"]\nb = [\"dep:b\"]\nc = [\"b/fast\"]\n\
                      window = []\n\n[[test]]\nname = \"x\"\n\n[[test]]\nname = \"y\"\n\n[dependencies]\na = { path = \"a\" }\n\
                      b = { path = \"b\", optional = true }\n";
-        let text = root_manifest(whole, |file| ["a/Cargo.toml", "tests/x.rs"].contains(&file)).unwrap();
+        let text = root_manifest(whole, |file| ["a/Cargo.toml", "tests/x.rs"].contains(&file), &[]).unwrap();
         let expected = "[workspace]\nmembers = [\"a\"]\n\n[features]\ndefault = [ \"window\"]\nwindow = []\n\n[[test]]\nname = \"x\"\n\n\
                         [dependencies]\na = { path = \"a\" }\n";
         assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn features_of_the_program_that_are_not_handed_out_leave_no_trace_in_the_root() {
+        let program = "[features]\nengine = [\"dep:engine\"]\nwindow = []\n\n[dependencies]\nengine = { path = \"../engine\", optional = true }\n\
+                       mesh = { path = \"../mesh\" }\n";
+        let has = |file: &str| file == "crates/mesh/Cargo.toml";
+        let (text, gone) = program_manifest(program, has).unwrap();
+        assert_eq!(text, "[features]\nwindow = []\n\n[dependencies]\nmesh = { path = \"../mesh\" }\n");
+        assert_eq!(gone, ["fem-cli/engine"]);
+        let root = "[workspace]\nmembers = []\n\n[features]\ndefault = [\"engine\", \"window\"]\nengine = [\"fem-cli/engine\"]\nwindow = [\"fem-cli/window\"]\n";
+        let expected =
+            "[workspace]\nmembers = []\n\n[features]\ndefault = [ \"window\"]\nwindow = [\"fem-cli/window\"]\n";
+        assert_eq!(root_manifest(root, has, &gone).unwrap(), expected);
     }
 
     #[test]

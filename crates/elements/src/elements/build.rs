@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use crate::number::Number;
+use fem_model::element::Element;
 use nalgebra::{SMatrix, Vector3};
 
-use super::quadratic::{self, BARYCENTRIC, POINTS};
 use super::{Batch, Chunk, Elements};
 use crate::number::Float;
 use crate::sparse::Pattern;
@@ -38,6 +38,28 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E,
         Self::of_shapes(positions.len(), elements, pattern, &shape)
     }
 
+    /// Elements of any order with their nodes in the order of the mesh. Each becomes an element for each of its quadrature points: with `P` of
+    /// them, element P e + k is point k of element e. `factors` is as for [`stiffened`](Self::stiffened), one for each element.
+    pub fn at_points(
+        kind: &Element,
+        positions: &[Vector3<f64>],
+        elements: &[[u32; N]],
+        factors: &[f64],
+        pattern: &Pattern,
+    ) -> Self {
+        let count = kind.points.len();
+        let points: Vec<[u32; N]> = elements.iter().flat_map(|&nodes| std::iter::repeat_n(nodes, count)).collect();
+        let shape = |point: usize, ascending: &[u32; N]| {
+            let nodes = &elements[point / count];
+            let factor = factors.get(point / count).copied().unwrap_or(1.0);
+            let (inverse, volume) = simplex::<D, N>(nodes, positions, factor);
+            let gradients = kind.gradients(&of_corners(&inverse), kind.points[point % count]);
+            let of_node = |node: u32| nodes.iter().position(|&other| other == node).map_or([0.0; D], |i| gradients[i]);
+            (std::array::from_fn(|e| of_node(ascending[e + 1])), volume / count as f64)
+        };
+        Self::of_shapes(positions.len(), &points, pattern, &shape)
+    }
+
     /// Prepares the assembly of matrices with another pattern: finds the block of each pair of nodes.
     pub fn set_pattern(&mut self, pattern: &Pattern) {
         for chunk in &mut self.chunks {
@@ -54,26 +76,6 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E,
     ) -> Self {
         let chunks = chunk_ranges(nodes).map(|nodes| chunk(nodes, elements, pattern, shape)).collect();
         Self { chunks, count: elements.len() }
-    }
-}
-
-impl<T: Float> Elements<T, 2, 5, 6> {
-    /// Straight-sided quadratic triangles with their nodes in the order of [`quadratic::gradients`]. Each becomes three elements, its
-    /// quadrature points: element 3 t + k is point k of triangle t. `factors` is as for [`stiffened`](Elements::stiffened), one for
-    /// each triangle.
-    pub fn quadratic(positions: &[Vector3<f64>], triangles: &[[u32; 6]], factors: &[f64], pattern: &Pattern) -> Self {
-        let points: Vec<[u32; 6]> = triangles.iter().flat_map(|&triangle| [triangle; POINTS]).collect();
-        let shape = |point: usize, nodes: &[u32; 6]| {
-            let triangle = &triangles[point / POINTS];
-            let [a, b, c, ..] = *triangle;
-            let factor = factors.get(point / POINTS).copied().unwrap_or(1.0);
-            let (corners, area) = simplex::<2, 3>(&[a, b, c], positions, factor);
-            let gradients = quadratic::gradients(&corners, &BARYCENTRIC[point % POINTS]);
-            let of_node =
-                |node: u32| triangle.iter().position(|&other| other == node).map_or([0.0; 2], |i| gradients[i]);
-            (std::array::from_fn(|e| of_node(nodes[e + 1])), area / POINTS as f64)
-        };
-        Self::of_shapes(positions.len(), &points, pattern, &shape)
     }
 }
 
@@ -149,6 +151,13 @@ fn simplex<const D: usize, const N: usize>(
     let edges = SMatrix::<f64, D, D>::from_fn(|i, e| x(e + 1)[i] - x(0)[i]);
     let (inverse, determinant) = inverse_and_determinant(&edges);
     (inverse, factor * determinant.abs() / (1..=D).product::<usize>() as f64)
+}
+
+/// Gradients of the barycentric coordinates of a simplex, 1/m, from the inverse of its edge matrix.
+fn of_corners<const D: usize>(inverse: &SMatrix<f64, D, D>) -> Vec<[f64; D]> {
+    let others = (0..D).map(|e| std::array::from_fn(|j| inverse[(e, j)]));
+    let first = std::array::from_fn(|j| (1..D).fold(-inverse[(0, j)], |sum, e| sum - inverse[(e, j)]));
+    std::iter::once(first).chain(others).collect()
 }
 
 /// Corners in the order of their numbers, so that the same pairs of all elements lie in the lower half of a matrix: a branch that

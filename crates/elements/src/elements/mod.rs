@@ -3,8 +3,8 @@
 //! Elements lie side by side in batches, one in each lane of a register, and are written for D dimensions: tetrahedra in
 //! space, triangles of the plane z = 0. An element here has one quadrature point, where the displacement gradient is
 //! Σ_e (u_{e+1} − u_0) ⊗ ∇φ_{e+1}: a sum over its E = N − 1 nodes but the first, since shape functions add up to one. A simplex has
-//! constant gradients and needs one point; a quadratic triangle is three such elements on the same six nodes ([`quadratic`]). Nodes have
-//! three coordinates in all of them; triangles read and move the first two. Nodes are divided into chunks; each chunk computes all elements
+//! constant gradients and needs one point; an element with more is as many such elements on the same nodes
+//! ([`at_points`](Elements::at_points)). Nodes have three coordinates in all of them; triangles read and move the first two. Nodes are divided into chunks; each chunk computes all elements
 //! that touch its nodes and sums up its own rows alone. Elements between chunks are computed twice, no two threads write to one place, and
 //! sums come out the same with any number of threads.
 
@@ -14,8 +14,8 @@ mod chunk_sums;
 mod kernel;
 mod laws;
 mod parallel;
-pub mod quadratic;
 mod scatter;
+pub mod shares;
 mod stress;
 
 use std::ops::Range;

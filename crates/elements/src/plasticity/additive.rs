@@ -24,7 +24,7 @@ pub struct Additive<T> {
     /// Plastic strain εᵖ.
     pub plastic: Tensor<T>,
     /// The body is flat: inverted elements are turned back within the plane.
-    pub is_flat: bool,
+    pub is_in_plane: bool,
 }
 
 /// Relative distance from `maximum` at which rounding error leaves the plastic strain below it.
@@ -39,7 +39,7 @@ struct Strained<T> {
 impl<T: Number> Additive<T> {
     #[inline(always)]
     fn strained(&self, G: &Tensor<T>) -> Strained<T> {
-        let (F, e) = if self.is_flat { stretches_in_plane(G) } else { stretches(G) };
+        let (F, e) = if self.is_in_plane { stretches_in_plane(G) } else { stretches(G) };
         let V = &F.V;
         let elastic = from_fn(
             #[inline(always)]

@@ -85,7 +85,7 @@ impl<T: Float, L: Lanes<Element = T>> BatchLaws<L> for PlasticLaws<'_, T, L> {
                 PlasticLaw::ViscousJ2(ViscousJ2 { damping: KelvinVoigt { mu, lambda }, plastic })
             }
             Model::Additive { .. } => {
-                PlasticLaw::Additive(Additive { mu, lambda, plastic, is_flat: self.plasticity.is_flat() })
+                PlasticLaw::Additive(Additive { mu, lambda, plastic, is_in_plane: self.plasticity.is_in_plane() })
             }
             Model::J2 { yield_stress, hardening } => PlasticLaw::J2(J2 {
                 mu,

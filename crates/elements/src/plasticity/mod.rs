@@ -31,7 +31,7 @@ pub struct Internal<T> {
 /// The plastic flow of all elements of a body.
 pub struct Plasticity<T> {
     model: Model,
-    is_flat: bool,
+    is_in_plane: bool,
     /// Of each element of the mesh.
     variables: Vec<Internal<T>>,
     /// Energy dissipated so far, J.
@@ -43,8 +43,8 @@ pub type Flow = (Internal<f64>, f64);
 
 impl<T: Float> Plasticity<T> {
     /// No flow yet, of a body that is flat or not.
-    pub fn new(model: Model, elements: usize, is_flat: bool) -> Self {
-        Self { model, is_flat, variables: vec![Internal::default(); elements], dissipated: 0.0 }
+    pub fn new(model: Model, elements: usize, is_in_plane: bool) -> Self {
+        Self { model, is_in_plane, variables: vec![Internal::default(); elements], dissipated: 0.0 }
     }
 
     /// The model with its parameters.
@@ -53,8 +53,8 @@ impl<T: Float> Plasticity<T> {
     }
 
     /// Returns true if the body is flat.
-    pub fn is_flat(&self) -> bool {
-        self.is_flat
+    pub fn is_in_plane(&self) -> bool {
+        self.is_in_plane
     }
 
     /// Internal variables of each element of the mesh.
@@ -80,7 +80,8 @@ impl<T: Float> Plasticity<T> {
         let plastic = map(&before.plastic, T::as_f64);
         let (after, dissipated) = match self.model {
             Model::Additive { yield_strain, creep, maximum } => {
-                let law = Additive { mu: shear, lambda: bulk - 2.0 / 3.0 * shear, plastic, is_flat: self.is_flat };
+                let law =
+                    Additive { mu: shear, lambda: bulk - 2.0 / 3.0 * shear, plastic, is_in_plane: self.is_in_plane };
                 law.flow(G, yield_strain, -(-creep * dt).exp_m1(), maximum)
             }
             Model::J2 { yield_stress, hardening } => {

@@ -37,23 +37,21 @@ impl<T: Float> AnyElements<T> {
     ) -> Self {
         let pattern = &Pattern::none();
         let factor = |&element: &usize| factors.get(element).copied().unwrap_or(1.0);
-        match mesh {
-            BodyMesh::Solid(mesh) => {
-                let corners = renumbered(numbers, &mesh.elements, node_numbers);
-                let factors: Vec<f64> =
-                    if factors.is_empty() { Vec::new() } else { numbers.iter().map(factor).collect() };
-                Self::Tetrahedra(Elements::stiffened(rest, &corners, &factors, pattern))
-            }
-            BodyMesh::Flat { triangles, thickness } => {
-                let corners = renumbered(numbers, &triangles.elements, node_numbers);
-                let factors: Vec<f64> = numbers.iter().map(|element| thickness * factor(element)).collect();
-                Self::Triangles(Elements::stiffened(rest, &corners, &factors, pattern))
-            }
-            BodyMesh::Quadratic { triangles, thickness } => {
-                let nodes = renumbered(numbers, &triangles.elements, node_numbers);
-                let factors: Vec<f64> = numbers.iter().map(|element| thickness * factor(element)).collect();
-                Self::QuadraticTriangles(Elements::quadratic(rest, &nodes, &factors, pattern))
-            }
+        let factors: Vec<f64> = match mesh.thickness() {
+            None if factors.is_empty() => Vec::new(),
+            thickness => numbers.iter().map(|element| thickness.unwrap_or(1.0) * factor(element)).collect(),
+        };
+        if let Some(elements) = mesh.arrays::<4>() {
+            let corners = renumbered(numbers, elements, node_numbers);
+            Self::Tetrahedra(Elements::stiffened(rest, &corners, &factors, pattern))
+        } else if let Some(elements) = mesh.arrays::<3>() {
+            let corners = renumbered(numbers, elements, node_numbers);
+            Self::Triangles(Elements::stiffened(rest, &corners, &factors, pattern))
+        } else if let Some(elements) = mesh.arrays::<6>() {
+            let nodes = renumbered(numbers, elements, node_numbers);
+            Self::QuadraticTriangles(Elements::at_points(mesh.element(), rest, &nodes, &factors, pattern))
+        } else {
+            unreachable!("the loops are not compiled for {}", mesh.element().name)
         }
     }
 }

@@ -36,8 +36,8 @@ impl<T: Float> Groups<T> {
     pub fn new(body: &Body, law: Option<AnyLaw<T::Single>>, rest: &[Vector3<f64>], node_numbers: &[u32]) -> Self {
         let Some(law) = law else { return Self::none() };
         let factors = &body.stiffness_factors;
-        let (count, points_per_element) = (body.shape.mesh.elements(), body.shape.mesh.points_per_element());
-        let is_flat = body.shape.mesh.is_flat();
+        let (count, points_per_element) = (body.shape.mesh.elements(), body.shape.mesh.element().points.len());
+        let is_in_plane = body.shape.mesh.dimension() == 2;
         let group = |(law, material): (AnyLaw<T::Single>, &Material), elements: Vec<usize>| {
             let of_element = |&element: &usize| element * points_per_element..(element + 1) * points_per_element;
             let numbers = elements.iter().flat_map(of_element).collect();
@@ -46,8 +46,8 @@ impl<T: Float> Groups<T> {
             if let Some(fast) = &fast {
                 assert_eq!(fast.moduli(), law.moduli(), "the law is that of the body's material");
             }
-            let fast = fast.map(|fast| SolidLaws::new(fast, is_flat));
-            Solid { laws: SolidLaws::new(law, is_flat), fast, elements, numbers }
+            let fast = fast.map(|fast| SolidLaws::new(fast, is_in_plane));
+            Solid { laws: SolidLaws::new(law, is_in_plane), fast, elements, numbers }
         };
         let groups = if body.regions.is_empty() {
             vec![Solid { numbers: Vec::new(), ..group((law, &body.material), (0..count).collect()) }]
@@ -64,7 +64,7 @@ impl<T: Float> Groups<T> {
             own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
         };
         let count = count * points_per_element;
-        let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, body.shape.mesh.is_flat()));
+        let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, is_in_plane));
         let is_in_plane_stress = body.material.plane == PlaneState::Stress;
         Self {
             groups,

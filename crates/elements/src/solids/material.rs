@@ -47,8 +47,8 @@ pub(super) struct SolidLaws<L> {
 }
 
 impl<L: Lanes> SolidLaws<L> {
-    pub(super) fn new(law: AnyLaw<L>, is_flat: bool) -> Self {
-        Self { law, in_plane: if is_flat { law.in_plane().map(Vectorized) } else { None } }
+    pub(super) fn new(law: AnyLaw<L>, is_in_plane: bool) -> Self {
+        Self { law, in_plane: if is_in_plane { law.in_plane().map(Vectorized) } else { None } }
     }
 
     /// The law of elements that do not flow.

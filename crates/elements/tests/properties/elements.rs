@@ -1,5 +1,6 @@
 mod quadratic;
 mod registers;
+mod shares;
 
 use nalgebra::Vector3;
 

@@ -29,14 +29,9 @@ pub struct DirichletConditions {
 
 /// Returns for each node of the mesh whether it is constrained in all directions at all times.
 pub fn fully_constrained_nodes(body: &Body) -> Vec<bool> {
-    let mut directions = vec![everywhere(body); body.shape.mesh.vertices().len()];
+    let mut directions = vec![body.shape.mesh.fixed_directions(); body.shape.mesh.vertices().len()];
     constrain(body.dirichlet.iter().filter(|condition| condition.until.is_none()), &mut directions);
     directions.into_iter().map(|constrained| constrained == [true; 3]).collect()
-}
-
-/// The directions in which every node of a body is constrained.
-pub fn everywhere(body: &Body) -> [bool; 3] {
-    [false, false, body.shape.mesh.is_flat()]
 }
 
 fn constrain<'a>(conditions: impl Iterator<Item = &'a DirichletCondition>, directions: &mut [[bool; 3]]) {
@@ -57,7 +52,7 @@ impl DirichletConditions {
         };
         let conditions: Vec<_> = body.dirichlet.iter().map(engine_nodes).collect();
         let applies = vec![true; conditions.len()];
-        let everywhere = everywhere(body);
+        let everywhere = body.shape.mesh.fixed_directions();
         let mut new = Self { free: numbering.free, partly: Vec::new(), everywhere, conditions, applies };
         new.find_partly_constrained(body.shape.mesh.vertices().len());
         new

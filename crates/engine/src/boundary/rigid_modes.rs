@@ -3,7 +3,6 @@
 use fem_model::{Body, Refusal};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::dirichlet::everywhere;
 use fem_elements::vector::triple;
 
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
@@ -42,9 +41,9 @@ pub(crate) fn free_part(body: &Body) -> Option<usize> {
     (0..part.len()).find(|&node| part[node] == node && !joined.contains(&node) && is_free(node))
 }
 
-/// The constrained directions of each node. The anchor spring of a drag counts as one.
+/// The constrained directions of each node. The spring of a drag counts as one.
 fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
-    let mut constrained = vec![everywhere(body); body.shape.mesh.vertices().len()];
+    let mut constrained = vec![body.shape.mesh.fixed_directions(); body.shape.mesh.vertices().len()];
     for condition in &body.dirichlet {
         for &node in &condition.nodes {
             let before = constrained[node];

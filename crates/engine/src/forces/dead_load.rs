@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
 use crate::numbering::Numbering;
 use fem_elements::Real;
+use fem_elements::elements::shares::{face_shares, load_shares, lumped_mass_shares};
 use fem_elements::vector::{dot3, triple};
 
 /// Key in the statistics.
@@ -92,21 +93,22 @@ fn add_volume_loads(body: &Body, sums: &mut Sums) {
         }
     };
     if let Some(gravity) = body.gravity {
-        let shares = if body.lumped_mass { mesh.lumped_mass_shares() } else { mesh.load_shares() };
-        add(&body.gravity_curve, shares, &|element| density(element) * gravity);
+        let shares = if body.lumped_mass { lumped_mass_shares } else { load_shares };
+        add(&body.gravity_curve, &shares(mesh.element()), &|element| density(element) * gravity);
     }
     if let Some(body_force) = body.body_force {
-        add(&body.body_force_curve, mesh.load_shares(), &|_| body_force);
+        add(&body.body_force_curve, &load_shares(mesh.element()), &|_| body_force);
     }
 }
 
 /// Adds tractions.
 fn add_tractions(body: &Body, sums: &mut Sums) {
+    let shares = face_shares(body.shape.mesh.element());
     for traction in &body.tractions {
         let force = sums.of(&traction.curve);
         for face in &traction.faces {
             let load = body.shape.mesh.area(face) * traction.force_per_area;
-            face.iter().zip(body.shape.mesh.face_shares()).for_each(|(&node, &share)| force[node] += share * load);
+            face.iter().zip(&shares).for_each(|(&node, &share)| force[node] += share * load);
         }
     }
 }

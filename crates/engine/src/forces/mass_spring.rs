@@ -48,15 +48,15 @@ pub fn edges(body: &Body) -> Vec<Spring> {
     volumes_of_edges(body).into_iter().map(spring).collect()
 }
 
-/// Shear modulus of the isotropic mean of a mass-spring body's springs in an affine deformation, Pa: Σ k l² / (15 V), or Σ k l² / (8 V)
-/// in the plane. Zero for a body of elastic elements.
+/// Shear modulus of the isotropic mean of a mass-spring body's springs in an affine deformation, Pa: Σ k l² / (d (d + 2) V) in d dimensions. Zero for a body of elastic elements.
 pub fn shear_modulus(body: &Body) -> f64 {
     let sum: f64 = edges(body).iter().map(|spring| spring.stiffness * spring.rest_length * spring.rest_length).sum();
     if sum == 0.0 {
         return 0.0;
     }
     let volume: f64 = body.shape.mesh.volumes().iter().sum();
-    sum / (volume * if body.shape.mesh.is_flat() { 8.0 } else { 15.0 })
+    let dimension = body.shape.mesh.dimension();
+    sum / (volume * (dimension * (dimension + 2)) as f64)
 }
 
 /// Volume of the elements around an edge, m³, and its sum weighted by the factors on their moduli.

@@ -1,8 +1,9 @@
 //! Forces on the body beside its own elasticity: the trait [`Potential`], and one file for each force.
 
-pub mod anchors;
+mod central_gravity;
 pub mod contact;
 pub mod dead_load;
+pub mod drag;
 mod energy;
 mod hessian_kind;
 pub mod mass_spring;
@@ -14,7 +15,7 @@ pub mod springs;
 use fem_model::{Body, Timer};
 
 use crate::numbering::Numbering;
-use anchors::Anchors;
+use drag::DragSprings;
 pub use energy::Energy;
 use fem_elements::Real;
 use fem_elements::sparse::Pattern;
@@ -34,13 +35,14 @@ pub struct Kind<T: Real> {
 /// Builds a force of a body.
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
-/// Every force that a scene can ask for; `[drag]` and the user's interaction are [`Anchors`].
-pub fn kinds<T: Real>() -> [Kind<T>; 6] {
+/// Every force that a scene can ask for; `[drag]` and the user's interaction are [`DragSprings`].
+pub fn kinds<T: Real>() -> [Kind<T>; 7] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
         Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
         Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },
+        Kind { name: central_gravity::NAME, tables: "[central_gravity]", build: central_gravity::build },
         Kind { name: contact::NAME, tables: "[[planes]]", build: contact::build },
         Kind { name: contact::friction::NAME, tables: "[[planes]] with friction", build: contact::friction::build },
     ]
@@ -49,15 +51,15 @@ pub fn kinds<T: Real>() -> [Kind<T>; 6] {
 /// All forces of a body, each with its timer.
 pub struct Forces<T: Real> {
     potentials: Vec<(Box<dyn Potential<T>>, Timer)>,
-    /// Anchor springs from nodes to points in space: `[drag]`, or the user's interaction.
-    pub anchors: Anchors,
+    /// Springs from nodes to points in space: `[drag]`, or the user's interaction.
+    pub drag: DragSprings,
     /// Uses and time of these.
-    pub anchors_timer: Timer,
+    pub drag_timer: Timer,
 }
 
 impl<T: Real> Forces<T> {
-    /// The forces that the scene asks for, the anchor springs, and `own` ones.
-    pub fn new(body: &Body, anchors: Anchors, numbering: &Numbering, own: Vec<Box<dyn Potential<T>>>) -> Self {
+    /// The forces that the scene asks for, the drag springs, and `own` ones.
+    pub fn new(body: &Body, drag: DragSprings, numbering: &Numbering, own: Vec<Box<dyn Potential<T>>>) -> Self {
         let named = kinds().into_iter().filter_map(|kind| (kind.build)(body, numbering));
         let with_timer = |mut potential: Box<dyn Potential<T>>| {
             let (name, is_lagged) = (potential.name(), potential.lagged().is_some());
@@ -65,18 +67,18 @@ impl<T: Real> Forces<T> {
             (potential, Timer::default())
         };
         let potentials = named.chain(own).map(with_timer).collect();
-        Self { potentials, anchors, anchors_timer: Timer::default() }
+        Self { potentials, drag, drag_timer: Timer::default() }
     }
 
     /// All forces that the scene asks for, active or not, and their timers.
     pub fn all(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
         let own = self.potentials.iter().map(|(potential, timer)| (&**potential, timer));
-        own.chain(std::iter::once((&self.anchors as &dyn Potential<T>, &self.anchors_timer)))
+        own.chain(std::iter::once((&self.drag as &dyn Potential<T>, &self.drag_timer)))
     }
 
-    /// The same without the anchor springs while there are none.
+    /// The same without the drag springs while there are none.
     pub fn active(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
-        self.all().take(self.potentials.len() + usize::from(self.anchors.is_active()))
+        self.all().take(self.potentials.len() + usize::from(self.drag.is_active()))
     }
 
     /// Pairs of the nodes of a body that Hessians couple, in both orders.

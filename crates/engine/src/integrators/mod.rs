@@ -56,12 +56,55 @@ pub(crate) use descent::color_nodes;
 pub(crate) use projection::shape;
 
 use fem_model::simulation::{Cause, Counters, History};
+use fem_model::{Integrator as Kind, Method};
 
 use crate::forces::Moment;
+use crate::forces::contact::planes::Planes;
 use crate::model::state::State;
 use crate::model::system::System;
+use crate::newton::Newton;
 use crate::solvers::Solver;
 use fem_elements::Real;
+
+/// The parts that an integrator may need.
+pub struct Parts<'a, T: Real> {
+    /// Its parameters.
+    pub method: &'a Method,
+    /// The body.
+    pub system: &'a System<T>,
+    /// Obstacles, if the body has any.
+    pub planes: Option<&'a Planes>,
+    /// Analyses the pattern of the matrix.
+    pub solver: &'a dyn Fn() -> Solver<T>,
+    /// Newton's method with its solver.
+    pub newton: &'a dyn Fn() -> Newton<T>,
+    /// Relative residual of a linear solve.
+    pub tolerance: f64,
+}
+
+/// The integrator of that name.
+pub fn build<T: Real>(kind: Kind, parts: &Parts<T>) -> Box<dyn Integrator<T>> {
+    let Parts { method, system, planes, solver, newton, tolerance } = *parts;
+    match kind {
+        Kind::ExplicitEuler => Box::new(ExplicitEuler::new(system)),
+        Kind::SemiImplicitEuler => Box::new(SemiImplicitEuler::new(system)),
+        Kind::Rk2 => Box::new(Rk2::new(system)),
+        Kind::Rk4 => Box::new(Rk4::new(system)),
+        Kind::Verlet => Box::new(Verlet::new(system)),
+        Kind::LinearlyImplicitEuler => Box::new(LinearlyImplicitEuler::new(solver(), tolerance, system)),
+        Kind::ImplicitEuler => Box::new(ImplicitEuler::new(newton(), system)),
+        Kind::Static if method.arc_length => Box::new(Statics::by_arc_length(newton(), system, method.load_steps)),
+        Kind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
+        Kind::Xpbd => Box::new(xpbd(&method.iterations, system, planes)),
+        Kind::Pbd => Box::new(pbd(&method.iterations, system, planes)),
+        Kind::Vbd => Box::new(vbd(&method.iterations, system, planes)),
+        Kind::ProjectiveDynamics => Box::new(ProjectiveDynamics::new(method.iterations, solver(), system)),
+        second_order => {
+            let scheme = Scheme::new(second_order, method).expect("an implicit method of second order");
+            Box::new(SecondOrder::new(scheme, newton(), system, method.adaptive.is_some()))
+        }
+    }
+}
 
 /// The quantities that a time integration method keeps from step to step, such as accelerations. A method that keeps some implements all of
 /// these functions; one that keeps none is [`Memoryless`].

@@ -31,34 +31,6 @@ pub struct Consistent<T> {
     magnitudes: Vec<T>,
 }
 
-/// The consistent mass matrix of an element of `N` nodes and unit mass: ∫ φ_i φ_j over its volume. Rows and columns are in the order of
-/// the mesh's nodes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElementMass<const N: usize>([[f64; N]; N]);
-
-impl<const N: usize> ElementMass<N> {
-    /// A linear simplex of `N` corners: (1 + δ_ij) / (N (N + 1)).
-    pub fn simplex() -> Self {
-        let share = 1.0 / (N * (N + 1)) as f64;
-        Self(std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 2.0 * share } else { share })))
-    }
-}
-
-impl ElementMass<6> {
-    /// A straight-sided quadratic triangle: Zienkiewicz and Taylor, The Finite Element Method 1, section 17.2.
-    pub fn quadratic_triangle() -> Self {
-        let entries = [
-            [6.0, -1.0, -1.0, 0.0, -4.0, 0.0],
-            [-1.0, 6.0, -1.0, 0.0, 0.0, -4.0],
-            [-1.0, -1.0, 6.0, -4.0, 0.0, 0.0],
-            [0.0, 0.0, -4.0, 32.0, 16.0, 16.0],
-            [-4.0, 0.0, 0.0, 16.0, 32.0, 16.0],
-            [0.0, -4.0, 0.0, 16.0, 16.0, 32.0],
-        ];
-        Self(entries.map(|row| row.map(|entry| entry / 180.0)))
-    }
-}
-
 /// Mass of each element of a body, kg.
 pub fn element_masses(body: &Body) -> Vec<f64> {
     let relative_density = |element: usize| body.density_factors.get(element).copied().unwrap_or(1.0);
@@ -79,12 +51,13 @@ impl<T: Real> Mass<T> {
         Self::Lumped(lumped.into_iter().map(T::of).collect())
     }
 
-    /// The consistent mass of `nodes` nodes. `masses` are those of the elements, kg.
+    /// The consistent mass of `nodes` nodes. `masses` are those of the elements, kg, and `shares` is the mass matrix of an element of unit mass,
+    /// whose rows and columns are in the order of its nodes.
     pub fn consistent<const N: usize>(
         nodes: usize,
         elements: &[[u32; N]],
         masses: &[f64],
-        ElementMass(shares): &ElementMass<N>,
+        shares: &[[f64; N]; N],
     ) -> Self {
         let pattern = Pattern::new(nodes, elements, Stored::Full);
         let mut values = vec![0.0; pattern.blocks()];

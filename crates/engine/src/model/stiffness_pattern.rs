@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use fem_model::{Body, BodyMesh};
+use fem_model::{Body, with_elements};
 
 use super::system::{OwnForces, System};
-use crate::numbering::{Numbering, Ordering};
+use crate::numbering::Ordering;
 use crate::solvers::SolverChoice;
 use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
-use fem_elements::sparse::{Pattern, Stored};
+use fem_elements::sparse::Pattern;
 
 impl<T: Real> System<T> {
     /// Builds the parts that the scene names, with rows and blocks in the form of the solver.
@@ -40,11 +40,9 @@ impl<T: Real> System<T> {
     pub fn prepare_matrix(&mut self, choice: SolverChoice) {
         let couplings = self.forces.couplings(self.nodes());
         let (numbering, stored) = (&self.numbering, choice.stored());
-        let pattern = match &self.shape.mesh {
-            BodyMesh::Solid(mesh) => pattern(numbering, &mesh.elements, &couplings, stored),
-            BodyMesh::Flat { triangles, .. } => pattern(numbering, &triangles.elements, &couplings, stored),
-            BodyMesh::Quadratic { triangles, .. } => pattern(numbering, &triangles.elements, &couplings, stored),
-        };
+        let pattern = with_elements!(&self.shape.mesh, elements => {
+            Pattern::joined(numbering.free, &numbering.elements(elements), &couplings, stored)
+        });
         self.elements.set_pattern(&pattern);
         self.forces.set_pattern(&pattern);
         self.pattern = Arc::new(pattern);
@@ -54,13 +52,4 @@ impl<T: Real> System<T> {
     pub fn has_pattern(&self) -> bool {
         self.pattern.rows() == self.free()
     }
-}
-
-fn pattern<const N: usize>(
-    numbering: &Numbering,
-    elements: &[[usize; N]],
-    couplings: &[[u32; 2]],
-    stored: Stored,
-) -> Pattern {
-    Pattern::joined(numbering.free, &numbering.elements(elements), couplings, stored)
 }

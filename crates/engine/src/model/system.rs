@@ -3,14 +3,15 @@
 
 use std::sync::Arc;
 
+use fem_elements::elements::shares::{lumped_mass_shares, mass_shares};
 use fem_elements::solids::Solids;
 use fem_model::simulation::Shape;
-use fem_model::{Body, BodyMesh, Damping, Interaction};
+use fem_model::{Body, Damping, Interaction, with_elements};
 use nalgebra::{Matrix3, Vector3};
 
-use super::mass::{ElementMass, Mass, element_masses};
+use super::mass::{Mass, element_masses};
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
-use crate::forces::anchors::{self, Anchors};
+use crate::forces::drag::{self, DragSprings};
 use crate::forces::{Energy, Forces, HessianKind, Moment, Potential, mass_spring};
 use crate::numbering::{Numbering, Ordering};
 use crate::profile::Profile;
@@ -67,22 +68,11 @@ pub(super) const INTERNAL: Moment = Moment { time: 0.0, load_factor: None };
 impl<T: Real> System<T> {
     /// Builds the parts that the scene names, without a matrix.
     pub(super) fn of_body(body: &Body, law: Option<AnyLaw<T::Single>>, ordering: Ordering, own: OwnForces<T>) -> Self {
-        match &body.shape.mesh {
-            BodyMesh::Solid(mesh) => {
-                Self::of_elements(&mesh.elements, ElementMass::simplex(), body, law, ordering, own)
-            }
-            BodyMesh::Flat { triangles, .. } => {
-                Self::of_elements(&triangles.elements, ElementMass::simplex(), body, law, ordering, own)
-            }
-            BodyMesh::Quadratic { triangles, .. } => {
-                Self::of_elements(&triangles.elements, ElementMass::quadratic_triangle(), body, law, ordering, own)
-            }
-        }
+        with_elements!(&body.shape.mesh, elements => Self::of_elements(elements, body, law, ordering, own))
     }
 
     fn of_elements<const N: usize>(
         elements: &[[usize; N]],
-        shares: ElementMass<N>,
         body: &Body,
         law: Option<AnyLaw<T::Single>>,
         ordering: Ordering,
@@ -95,13 +85,13 @@ impl<T: Real> System<T> {
         let rest: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices()[node as usize]).collect();
         let own = own(&numbering);
         let (name, shape) = (body.name.clone(), Arc::new(body.shape.clone()));
-        let anchors =
-            Anchors::new(Interaction::new(body.drag, anchors::pull_modulus(body) * mesh.length()), &shape, &numbering);
-        let forces = Forces::new(body, anchors, &numbering, own);
+        let drag =
+            DragSprings::new(Interaction::new(body.drag, drag::pull_modulus(body) * mesh.length()), &shape, &numbering);
+        let forces = Forces::new(body, drag, &numbering, own);
         let masses = element_masses(body);
         let mass = match body.lumped_mass {
-            true => Mass::lumped(rest.len(), &corners, &masses, mesh.lumped_mass_shares()),
-            false => Mass::consistent(rest.len(), &corners, &masses, &shares),
+            true => Mass::lumped(rest.len(), &corners, &masses, &lumped_mass_shares(mesh.element())),
+            false => Mass::consistent(rest.len(), &corners, &masses, &mass_shares(mesh.element())),
         };
         let dirichlet = DirichletConditions::new(body, &numbering);
         Self {

@@ -4,12 +4,12 @@
 use fem_model::{Body, ContactTreatment, Integrator as IntegratorKind, Method, Motion, Refusal, SolverKind};
 use nalgebra::Vector3;
 
-use crate::forces::{Potential, anchors, dead_load, springs};
+use crate::forces::{Potential, dead_load, drag, springs};
 use crate::solvers::unusable_device;
 use fem_elements::Real;
 
 /// Forces that methods know which move nodes one by one.
-const OF_NODES: [&str; 3] = [dead_load::NAME, springs::NAME, anchors::NAME];
+const OF_NODES: [&str; 3] = [dead_load::NAME, springs::NAME, drag::NAME];
 
 /// True if it is asked for; the quantity; its problem and the remedy.
 type Row = (bool, &'static str, String);

@@ -28,7 +28,7 @@ pub(super) fn unknown_in_body(body: &Body) -> Option<String> {
     let own = (in_regions < body.shape.mesh.elements()).then_some(&body.material);
     let materials = own.into_iter().chain(body.regions.iter().map(|region| &region.material));
     let laws: Vec<&str> = materials.map(|material| material.law.name()).collect();
-    unknown_elements(body.shape.mesh.solid().is_some(), body.plasticity.is_some(), &laws)
+    unknown_elements(!body.shape.mesh.tetrahedra().is_empty(), body.plasticity.is_some(), &laws)
 }
 
 /// Returns the reason why a method leaves the assembly to the processor; `None` if it does not.
@@ -47,6 +47,6 @@ pub(super) fn other_method(kind: IntegratorKind, method: &Method, is_linear: boo
 pub(super) fn is_possible<T: Real>(kind: IntegratorKind, method: &Method, system: &System<T>) -> bool {
     let elements = &system.elements;
     let laws: Vec<&str> = elements.laws().map(|law| law.name()).collect();
-    let unknown = unknown_elements(system.shape.mesh.solid().is_some(), elements.plasticity().is_some(), &laws);
+    let unknown = unknown_elements(!system.shape.mesh.tetrahedra().is_empty(), elements.plasticity().is_some(), &laws);
     unknown.is_none() && other_method(kind, method, system.may_be_linear()).is_none()
 }

@@ -1,7 +1,6 @@
 //! The elements of a body as arrays for a graphics device, in the engine's numbering.
 
 use fem_gpu::{Law, Tetrahedra};
-use fem_mesh::TetrahedralMesh;
 
 use crate::integrators::shape;
 use crate::model::system::System;
@@ -25,9 +24,9 @@ pub(crate) fn law<L: Number>(law: &AnyLaw<L>) -> Option<(Law, [f64; 2])> {
     }
 }
 
-/// The elements of a mesh.
-pub(crate) fn tetrahedra<T: Real>(system: &System<T>, mesh: &TetrahedralMesh) -> Tetrahedra {
-    let corners = system.numbering.elements(&mesh.elements);
+/// The elements of a body of linear tetrahedra.
+pub(crate) fn tetrahedra<T: Real>(system: &System<T>) -> Tetrahedra {
+    let corners = system.numbering.elements(system.shape.mesh.tetrahedra());
     let factor = |element: usize| system.elements.factor(element);
     let shapes: Vec<_> = corners.iter().enumerate().map(|(e, corners)| shape(system, corners, factor(e))).collect();
     Tetrahedra {
@@ -39,9 +38,8 @@ pub(crate) fn tetrahedra<T: Real>(system: &System<T>, mesh: &TetrahedralMesh) ->
 
 /// The elements of a body whose matrices a device [can assemble](super::device_assembly::is_possible).
 pub(super) fn elements<T: Real>(system: &System<T>) -> DeviceElements {
-    let mesh = system.shape.mesh.solid().expect("other bodies are assembled on the processor");
-    let (law, moduli) = law_and_moduli(system, mesh.elements.len());
-    let tetrahedra = tetrahedra(system, mesh);
+    let (law, moduli) = law_and_moduli(system, system.shape.mesh.elements());
+    let tetrahedra = tetrahedra(system);
     let mut masses: Vec<Block<T, 3>> = vec![[[T::default(); 3]; 3]; system.pattern.blocks()];
     system.mass.add_to(T::one(), &system.pattern, &mut masses);
     let masses: Vec<f64> = masses.iter().map(|block| block[0][0].as_f64()).collect();

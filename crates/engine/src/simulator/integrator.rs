@@ -4,10 +4,7 @@ use fem_model::{Body, Integrator as IntegratorKind, Method};
 
 use super::Simulator;
 use crate::forces::contact::planes::Planes;
-use crate::integrators::{
-    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, ProjectiveDynamics, Rk2, Rk4, Scheme, SecondOrder,
-    SemiImplicitEuler, Statics, Verlet, pbd, vbd, xpbd,
-};
+use crate::integrators::{self, Integrator, Parts};
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
 use crate::simulator::device_assembly;
@@ -101,30 +98,8 @@ pub(super) fn build<T: Real>(
         let solver = if is_assembled_there { with_elements(solver, system) } else { solver };
         Newton::new(limits::<T>(kind, method, tolerance), solver, system.nodes(), system.pattern.blocks())
     };
-    match kind {
-        IntegratorKind::ExplicitEuler => Box::new(ExplicitEuler::new(system)),
-        IntegratorKind::SemiImplicitEuler => Box::new(SemiImplicitEuler::new(system)),
-        IntegratorKind::Rk2 => Box::new(Rk2::new(system)),
-        IntegratorKind::Rk4 => Box::new(Rk4::new(system)),
-        IntegratorKind::Verlet => Box::new(Verlet::new(system)),
-        IntegratorKind::LinearlyImplicitEuler => Box::new(LinearlyImplicitEuler::new(solver(), tolerance, system)),
-        IntegratorKind::ImplicitEuler => Box::new(ImplicitEuler::new(newton(), system)),
-        IntegratorKind::Static if method.arc_length => {
-            Box::new(Statics::by_arc_length(newton(), system, method.load_steps))
-        }
-        IntegratorKind::ImplicitMidpoint
-        | IntegratorKind::Newmark
-        | IntegratorKind::GeneralizedAlpha
-        | IntegratorKind::Bdf2 => {
-            let scheme = Scheme::new(kind, method).expect("an implicit method of second order");
-            Box::new(SecondOrder::new(scheme, newton(), system, method.adaptive.is_some()))
-        }
-        IntegratorKind::Xpbd => Box::new(xpbd(&method.iterations, system, planes)),
-        IntegratorKind::Pbd => Box::new(pbd(&method.iterations, system, planes)),
-        IntegratorKind::ProjectiveDynamics => Box::new(ProjectiveDynamics::new(method.iterations, solver(), system)),
-        IntegratorKind::Vbd => Box::new(vbd(&method.iterations, system, planes)),
-        IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
-    }
+    let parts = Parts { method, system, planes, solver: &solver, newton: &newton, tolerance };
+    integrators::build(kind, &parts)
 }
 
 /// Gives the elements to a solver on a graphics device.

@@ -3,7 +3,7 @@
 use fem_model::simulation::Part;
 
 use super::Simulator;
-use crate::forces::anchors;
+use crate::forces::drag;
 use fem_elements::Real;
 
 /// Bytes, and uses with their seconds.
@@ -14,7 +14,7 @@ pub(super) fn parts<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
     let Simulator { system, method, kind, solver, plan, .. } = simulator;
     let mut parts = plan.parts(*kind, method, *solver, system.may_be_linear());
     // The plan lists them in this order; several forces of one's own may have the same name.
-    let mut forces = system.forces.all().filter(|(potential, _)| potential.name() != anchors::NAME).peekable();
+    let mut forces = system.forces.all().filter(|(potential, _)| potential.name() != drag::NAME).peekable();
     for part in parts.iter_mut().filter(|part| part.built) {
         let (bytes, (uses, seconds)) = match forces.next_if(|(force, _)| force.name() == part.name) {
             Some((force, timer)) => (force.bytes(), timer.read()),
@@ -39,7 +39,7 @@ fn cost<T: Real>(simulator: &Simulator<T>, name: &str) -> Cost {
         "prescribed" => (system.dirichlet.bytes(), profile.prescribed.read()),
         "damping" => (0, profile.damping.read()),
         "plasticity" => (system.elements.plasticity().map_or(0, |flow| flow.bytes()), profile.plasticity.read()),
-        "drag" => (0, system.forces.anchors_timer.read()),
+        "drag" => (0, system.forces.drag_timer.read()),
         "stiffness" => {
             (system.pattern.bytes() + 9 * size_of::<T>() * system.pattern.blocks(), profile.stiffness.read())
         }

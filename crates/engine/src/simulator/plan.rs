@@ -44,7 +44,7 @@ impl Plan {
         Self {
             nodes: body.shape.mesh.vertices().len(),
             elements: body.shape.mesh.elements(),
-            kind: body.shape.mesh.kind(),
+            kind: body.shape.mesh.element().name,
             materials: materials(body),
             has_lumped_mass: body.lumped_mass,
             is_mass_spring: body.material.is_mass_spring(),

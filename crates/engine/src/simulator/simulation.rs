@@ -1,12 +1,12 @@
-//! The trait [`Simulation`] for the engine.
+//! The traits [`Simulation`], [`Interactive`] and [`Diagnostics`] for the engine.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use fem_model::Integrator as IntegratorKind;
 use fem_model::simulation::{
-    Checkpoint, Click, Counters, Energies, EnergyLedger, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow,
-    Pull, Reaction, Shape, Simulation,
+    Checkpoint, Click, Counters, Diagnostics, Energies, EnergyLedger, Failure, Interactive, Parameter, Part, Plane,
+    PlaneContact, PlasticFlow, Pull, Reaction, Shape, Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -62,10 +62,6 @@ impl<T: Compiled> Simulation for Simulator<T> {
         self.dt
     }
 
-    fn substeps(&self) -> usize {
-        self.substeps
-    }
-
     fn step(&mut self) -> Result<(), Failure> {
         T::step(self)
     }
@@ -96,6 +92,83 @@ impl<T: Compiled> Simulation for Simulator<T> {
         T::energies(self)
     }
 
+    fn min_J(&self) -> (f64, usize) {
+        T::min_J(self)
+    }
+
+    fn stresses(&self) -> Vec<Matrix3<f64>> {
+        T::stresses(self)
+    }
+
+    fn integrator(&self) -> &'static str {
+        self.kind.name()
+    }
+
+    fn display_vertices_outside(&self) -> usize {
+        self.skinning.as_ref().map_or(0, |skinning| skinning.outside())
+    }
+
+    fn nodal_forces(&self) -> Option<DVector<f64>> {
+        Some(stacked(&T::nodal_forces(self)))
+    }
+
+    fn counters(&self) -> Counters {
+        let solver = self.integrator.solver().map(|solver| solver.counters()).unwrap_or_default();
+        Counters {
+            symbolic_factorizations: solver.symbolic_factorizations,
+            solver_iterations: solver.iterations,
+            solver_fallbacks: solver.fallbacks,
+            skinning_rows: self.skinned_rows.load(Ordering::Relaxed),
+            ..self.counters
+        }
+    }
+
+    fn parts(&self) -> Vec<Part> {
+        parts::parts(self)
+    }
+}
+
+impl<T: Compiled> Interactive for Simulator<T> {
+    fn next_integrator(&mut self) -> &'static str {
+        T::next_integrator(self);
+        self.kind.name()
+    }
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let mut parameters = vec![Parameter::dt(self.dt, (1e-5, 0.1))];
+        if self.kind != IntegratorKind::Static {
+            parameters.push(Parameter::substeps(self.substeps));
+        }
+        parameters.push(Parameter::drag(self.system.forces.drag.interaction.stiffness));
+        parameters
+    }
+
+    fn apply_parameter(&mut self, key: &'static str, value: f64) {
+        match key {
+            "dt" => self.dt = value,
+            "substeps" => self.substeps = value.round() as usize,
+            _ => self.system.forces.drag.interaction.stiffness = value,
+        }
+        self.substep_dt = self.dt / self.substeps as f64;
+        self.forget();
+    }
+
+    fn pick(&self, click: &Click) -> Vec<usize> {
+        pick::nodes_under(click, &self.nodes_now(), &self.system.shape)
+    }
+
+    fn pull(&mut self, pull: Option<Pull>) {
+        self.system.forces.drag.interaction.set_pull(pull);
+        self.integrator.forget_forces();
+        self.last_forces.forget();
+    }
+}
+
+impl<T: Compiled> Diagnostics for Simulator<T> {
+    fn substeps(&self) -> usize {
+        self.substeps
+    }
+
     fn energy_ledger(&self) -> Option<EnergyLedger> {
         is_judged(self.kind).then(|| T::energy_ledger(self))
     }
@@ -112,10 +185,6 @@ impl<T: Compiled> Simulation for Simulator<T> {
         self.integrator.moment(&self.state).load_factor
     }
 
-    fn min_J(&self) -> (f64, usize) {
-        T::min_J(self)
-    }
-
     fn inverted_elements(&self) -> usize {
         T::inverted_elements(self)
     }
@@ -126,10 +195,6 @@ impl<T: Compiled> Simulation for Simulator<T> {
 
     fn has_stress(&self) -> bool {
         self.system.elements.count() > 0
-    }
-
-    fn stresses(&self) -> Vec<Matrix3<f64>> {
-        T::stresses(self)
     }
 
     fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
@@ -145,54 +210,8 @@ impl<T: Compiled> Simulation for Simulator<T> {
         Some(PlasticFlow { strains: self.system.elements.plastic_strains()?, dissipated: plasticity.dissipated() })
     }
 
-    fn integrator(&self) -> &'static str {
-        self.kind.name()
-    }
-
-    fn next_integrator(&mut self) -> &'static str {
-        T::next_integrator(self);
-        self.kind.name()
-    }
-
-    fn parameters(&self) -> Vec<Parameter> {
-        let mut parameters = vec![Parameter::dt(self.dt, (1e-5, 0.1))];
-        if self.kind != IntegratorKind::Static {
-            parameters.push(Parameter::substeps(self.substeps));
-        }
-        parameters.push(Parameter::drag(self.system.forces.anchors.interaction.stiffness));
-        parameters
-    }
-
-    fn apply_parameter(&mut self, key: &'static str, value: f64) {
-        match key {
-            "dt" => self.dt = value,
-            "substeps" => self.substeps = value.round() as usize,
-            _ => self.system.forces.anchors.interaction.stiffness = value,
-        }
-        self.substep_dt = self.dt / self.substeps as f64;
-        self.forget();
-    }
-
-    fn pick(&self, click: &Click) -> Vec<usize> {
-        pick::nodes_under(click, &self.nodes_now(), &self.system.shape)
-    }
-
-    fn pull(&mut self, pull: Option<Pull>) {
-        self.system.forces.anchors.interaction.set_pull(pull);
-        self.integrator.forget_forces();
-        self.last_forces.forget();
-    }
-
-    fn display_vertices_outside(&self) -> usize {
-        self.skinning.as_ref().map_or(0, |skinning| skinning.outside())
-    }
-
     fn reactions(&self) -> Vec<Reaction> {
         T::reactions(self)
-    }
-
-    fn nodal_forces(&self) -> Option<DVector<f64>> {
-        Some(stacked(&T::nodal_forces(self)))
     }
 
     fn contacts(&self) -> Vec<PlaneContact> {
@@ -222,21 +241,6 @@ impl<T: Compiled> Simulation for Simulator<T> {
 
     fn lag_residual(&self) -> Option<f64> {
         self.lag_residual_now()
-    }
-
-    fn counters(&self) -> Counters {
-        let solver = self.integrator.solver().map(|solver| solver.counters()).unwrap_or_default();
-        Counters {
-            symbolic_factorizations: solver.symbolic_factorizations,
-            solver_iterations: solver.iterations,
-            solver_fallbacks: solver.fallbacks,
-            skinning_rows: self.skinned_rows.load(Ordering::Relaxed),
-            ..self.counters
-        }
-    }
-
-    fn parts(&self) -> Vec<Part> {
-        parts::parts(self)
     }
 }
 

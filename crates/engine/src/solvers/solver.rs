@@ -11,13 +11,13 @@ use super::ApproximateInverse;
 use super::assembly::Assembly;
 #[cfg(feature = "gpu")]
 use super::assembly::DeviceElements;
-use super::choice::{Preconditioner, SolverChoice};
+use super::choice::SolverChoice;
 use super::device;
 use super::direct::{Lu, cholesky, cholesky_for_directions};
 use super::fallback::DirectFallback;
 use super::krylov::{LinearSystem, Workspace, conjugate_gradients, parts, product, refine};
 use super::parts::Part;
-use super::preconditioners::{BlockJacobi, Identity, Multigrid, Ssor};
+use super::preconditioners::{self, Identity};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_model::Timer;
@@ -48,9 +48,7 @@ impl<T: Real> Solver<T> {
             SolverChoice::Cholesky => cholesky(pattern),
             SolverChoice::Lu => Box::new(Lu::new(pattern)),
             SolverChoice::Cg => Box::new(Identity),
-            SolverChoice::Pcg(Preconditioner::BlockJacobi) => Box::new(BlockJacobi::new(pattern)),
-            SolverChoice::Pcg(Preconditioner::Multigrid) => Box::new(Multigrid::new(pattern, rest)),
-            SolverChoice::Pcg(Preconditioner::Ssor) => Box::new(Ssor::new(pattern, rest)),
+            SolverChoice::Pcg(preconditioner) => preconditioners::build(preconditioner, pattern, rest),
             SolverChoice::Gpu(precision) => device::solver(precision, pattern, rest),
         };
         Self::with_inverse(choice, pattern, inverse)

@@ -48,7 +48,8 @@ fn allocations_of(scene: &str, more: &str) -> u64 {
 #[test]
 fn steps_of_all_methods_allocate_nothing() {
     let implicit = ["linearly_implicit_euler", "implicit_euler", "implicit_midpoint", "newmark"];
-    let methods = ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "generalized_alpha", "bdf2"];
+    let methods =
+        ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "generalized_alpha", "bdf2", "bathe"];
     for integrator in methods.into_iter().chain(implicit) {
         assert_eq!(allocations(integrator, ""), 0, "{integrator}");
         assert_eq!(allocations(integrator, "[damping]\nalpha = 1\nbeta = 1e-4\n"), 0, "{integrator}, damped");
@@ -57,7 +58,7 @@ fn steps_of_all_methods_allocate_nothing() {
 
 #[test]
 fn adaptive_steps_allocate_nothing() {
-    for integrator in ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2"] {
+    for integrator in ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2", "bathe"] {
         let text = SCENE.replace("dt = 0.001", "dt = 0.01\nadaptive = { tolerance = 1e-5 }");
         assert_eq!(allocations_of(&text.replace("INTEGRATOR", integrator), ""), 0, "{integrator}");
     }

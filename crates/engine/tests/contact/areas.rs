@@ -1,6 +1,7 @@
 //! The area with which a node bears on a plane: that of the faces around it which look at the plane.
 
-use fem_model::simulation::Simulation;
+use fem_engine::elements::shares::face_shares;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::{CUBE, build, floor, run, text};
 
@@ -26,14 +27,10 @@ fn a_pressed_body_of_uniform_stress_has_a_uniform_pressure_up_to_the_edges_of_it
         let simulation = pressed(mesh);
         let (shape, forces) = (simulation.shape(), simulation.contact_forces().unwrap());
         let (vertices, mut areas) = (shape.mesh.vertices(), vec![0.0; shape.mesh.vertices().len()]);
-        let faces = if shape.mesh.is_flat() {
-            shape.mesh.outline()
-        } else {
-            shape.boundary.iter().map(|face| face.to_vec()).collect()
-        };
-        for face in faces.iter().filter(|face| face.iter().all(|&node| vertices[node].y == 0.0)) {
+        let shares = face_shares(shape.mesh.element());
+        for face in shape.faces().iter().filter(|face| face.iter().all(|&node| vertices[node].y == 0.0)) {
             let area = shape.mesh.area(face);
-            face.iter().zip(shape.mesh.face_shares()).for_each(|(&node, share)| areas[node] += share * area);
+            face.iter().zip(&shares).for_each(|(&node, share)| areas[node] += share * area);
         }
         assert_eq!(areas.iter().filter(|area| **area > 0.0).count(), nodes, "{mesh}");
         for (node, area) in areas.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Gradient and Hessian of contact and friction against finite differences.
 
 use fem_engine::forces::{HessianKind, Moment, Potential};
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::{CUBE, build, floor, gravity, run, text};
 

@@ -1,6 +1,6 @@
 //! A scene without planes has no costs for contact, and the plan of a scene with planes lists its parts.
 
-use fem_model::simulation::{Part, Simulation};
+use fem_model::simulation::{Diagnostics, Interactive, Part, Simulation};
 
 use crate::{CUBE, build, floor, gravity, run, text};
 

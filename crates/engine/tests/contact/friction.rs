@@ -1,7 +1,7 @@
 //! Coulomb friction of a moving floor.
 
 use fem_engine::simulator::Simulator;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::{METHODS, SQUARE, build, contact_force, floor, gravity, is_implicit, momentum, run, text};
 

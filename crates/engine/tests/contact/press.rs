@@ -1,6 +1,6 @@
 //! Moving planes: a press between two plates.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::{CUBE, build, dissipative, is_implicit, run, text};
 

@@ -1,7 +1,7 @@
 //! Bodies at rest: the forces of the planes carry the weight.
 
 use fem_engine::simulator::Simulator;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::{
     CUBE, METHODS, SQUARE, build, contact_force, dissipative, floor, gravity, is_implicit, momentum, run, text,

@@ -1,6 +1,6 @@
 //! A run with contact that is resumed from a checkpoint goes on bit for bit.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::{CUBE, METHODS, build, floor, gravity, is_implicit, run, text};
 

@@ -1,8 +1,8 @@
 //! A scene that is turned as a whole has the same answer.
 
 use fem_engine::simulator::Simulator;
-use fem_model::BodyMesh;
-use fem_model::simulation::{Shape, Simulation};
+use fem_mesh::TetrahedralMesh;
+use fem_model::simulation::{Diagnostics, Shape, Simulation};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{CUBE, METHODS, is_implicit, run, scene, text};
@@ -30,9 +30,9 @@ fn falling(turn: Rotation3<f64>, method: &str, dt: f64) -> Simulator<f64> {
     // The planes would go through the upright cube.
     let mut shape: Shape = fem_scene::body(&of_text(""), "no data".as_ref()).unwrap().shape;
     let scene = of_text(&tables);
-    if let BodyMesh::Solid(mesh) = &mut shape.mesh {
-        mesh.vertices.iter_mut().for_each(|x| *x = turn * *x);
-    }
+    let mut mesh: TetrahedralMesh = shape.mesh.mesh().unwrap();
+    mesh.vertices.iter_mut().for_each(|x| *x = turn * *x);
+    shape.mesh = mesh.into();
     Simulator::new(fem_scene::body_of_shape(&scene, shape, "no data".as_ref()).unwrap(), &scene.method()).unwrap()
 }
 

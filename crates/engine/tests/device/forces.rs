@@ -2,7 +2,7 @@
 
 use fem_engine::simulator::{Compiled, Simulator};
 use fem_gpu::{Bodies, Body, Device, Environment, Law, Method, Number, Scheme, Tetrahedra};
-use fem_model::BodyMesh;
+use fem_mesh::TetrahedralMesh;
 use fem_scene::parse;
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -40,7 +40,7 @@ pub(crate) fn device_laws() -> [(&'static str, Law, [f64; 2]); 5] {
 fn parted(model: &str) -> (fem_scene::Scene, fem_model::Body) {
     let scene = parse(&SCENE.replace("MODEL", model), "parted.toml".as_ref()).unwrap();
     let whole = fem_scene::body(&scene, "no data".as_ref()).unwrap();
-    let BodyMesh::Solid(mut mesh) = whole.shape.mesh else { panic!("a box of tetrahedra") };
+    let mut mesh: TetrahedralMesh = whole.shape.mesh.mesh().unwrap();
     mesh.vertices = mesh.elements.iter().flatten().map(|&node| mesh.vertices[node]).collect();
     for (number, element) in mesh.elements.iter_mut().enumerate() {
         *element = [0, 1, 2, 3].map(|corner| 4 * number + corner);
@@ -51,10 +51,10 @@ fn parted(model: &str) -> (fem_scene::Scene, fem_model::Body) {
 
 /// The same elements as arrays, in the mesh's numbering.
 pub(crate) fn tetrahedra(body: &fem_model::Body) -> Tetrahedra {
-    let BodyMesh::Solid(mesh) = &body.shape.mesh else { panic!("tetrahedra") };
+    let mesh = &body.shape.mesh;
     let mut arrays = Tetrahedra::default();
-    for element in &mesh.elements {
-        let x = element.map(|node| mesh.vertices[node]);
+    for element in mesh.tetrahedra() {
+        let x = element.map(|node| mesh.vertices()[node]);
         let edges = Matrix3::from_columns(&[x[1] - x[0], x[2] - x[0], x[3] - x[0]]);
         let inverse = edges.try_inverse().unwrap();
         arrays.corners.push(element.map(|node| node as u32));

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use fem_engine::simulator::Simulator;
 use fem_engine::sparse::Block;
 use fem_gpu::{BlockPattern, ConjugateGradients, Device, Matrix, Number, Stiffness};
-use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
 use fem_scene::parse;
 use rand::{RngExt, SeedableRng};
@@ -50,8 +49,7 @@ fn error<N: Number>(device: &Arc<Device>, law: usize, amplitude: f64) -> f64 {
     let (name, law, moduli) = device_laws()[law];
     let scene = parse(&SCENE.replace("MODEL", name), "box.toml".as_ref()).unwrap();
     let body = fem_scene::body(&scene, "no data".as_ref()).unwrap();
-    let BodyMesh::Solid(mesh) = &body.shape.mesh else { panic!("a box of tetrahedra") };
-    let elements = mesh.elements.len();
+    let elements = body.shape.mesh.elements();
     let mut arrays = tetrahedra(&body);
     let simulator = Simulator::<f64>::new(body, &scene.method()).unwrap();
     let system = simulator.system();

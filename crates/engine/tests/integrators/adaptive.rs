@@ -1,7 +1,7 @@
 //! Adaptive steps: errors in proportion to the tolerance, accurate estimates, saved steps, and typed failures.
 
 use fem_engine::simulator::Simulator;
-use fem_model::simulation::{Cause, Simulation};
+use fem_model::simulation::{Cause, Diagnostics, Simulation};
 use nalgebra::DVector;
 
 use crate::{SECOND_ORDER, build, distance, run, scene, soft, try_build};

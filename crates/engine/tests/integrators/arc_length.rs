@@ -3,7 +3,7 @@
 use fem_engine::forces::{AddBlock, Energy, HessianKind, Moment, Potential};
 use fem_engine::numbering::Numbering;
 use fem_engine::simulator::Simulator;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 use fem_scene::{Scene, parse};
 use std::path::Path;
 

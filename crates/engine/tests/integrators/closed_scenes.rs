@@ -61,6 +61,7 @@ const DRIFTS: &[(Integrator, f64, f64)] = &[
     (Integrator::Newmark, 1e-3, 1e-5),
     (Integrator::GeneralizedAlpha, 1e-3, 1e-6),
     (Integrator::Bdf2, 1e-3, 4e-5),
+    (Integrator::Bathe, 1e-3, 1e-5),
 ];
 
 #[test]

@@ -12,6 +12,7 @@ fn impulse(integrator: &str, factor: impl Fn(f64) -> f64) -> f64 {
     match integrator {
         "generalized_alpha" => return generalized_alpha(factor),
         "bdf2" => return bdf2(factor),
+        "bathe" => return bathe(factor),
         _ => {}
     }
     let step = |k: usize| {
@@ -25,6 +26,19 @@ fn impulse(integrator: &str, factor: impl Fn(f64) -> f64) -> f64 {
         }
     };
     DT * (0..STEPS).map(step).sum::<f64>()
+}
+
+/// The trapezoidal rule up to the stage, and the backward formula through start, stage and end.
+fn bathe(factor: impl Fn(f64) -> f64) -> f64 {
+    let stage = 2.0 - 2f64.sqrt();
+    let step = |v: f64, k: usize| {
+        let at = |part: f64| factor((k as f64 + part) * DT);
+        let middle = v + 0.5 * stage * DT * (at(0.0) + at(stage));
+        // v' = c₁ v₀ + c₂ v_γ + c₃ v₁ at the end.
+        let c = [(1.0 - stage) / stage, -1.0 / ((1.0 - stage) * stage), (2.0 - stage) / (1.0 - stage)];
+        (DT * at(1.0) - c[0] * v - c[1] * middle) / c[2]
+    };
+    (0..STEPS).fold(0.0, step)
 }
 
 /// Chung and Hulbert's formulas for ρ∞ = 0.8.

@@ -15,7 +15,7 @@ use crate::scene;
 /// The body of a mesh with these parameters of `[material]`.
 fn body(mesh: impl Into<BodyMesh>, material: &str) -> Body {
     let mesh = mesh.into();
-    let source = if mesh.is_flat() { "rectangle = { size = [1, 1]" } else { "box = { size = [1, 1, 1]" };
+    let source = if mesh.dimension() == 2 { "rectangle = { size = [1, 1]" } else { "box = { size = [1, 1, 1]" };
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\n{source}, cells_per_unit = 1 }}\n[material]\n{material}\ndensity = 1000\n\
          [time]\ndt = 1.0\nintegrator = \"verlet\"\n"
@@ -31,7 +31,7 @@ fn triangles(n: usize) -> BodyMesh {
     let cells = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
     let both =
         |(i, j)| [[node(i, j), node(i + 1, j), node(i, j + 1)], [node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]];
-    BodyMesh::Flat { triangles: SurfaceMesh::new(vertices, cells.flat_map(both).collect()), thickness: 0.2 }
+    BodyMesh::flat(SurfaceMesh::new(vertices, cells.flat_map(both).collect()), 0.2)
 }
 
 /// Body-centred cubic cells of 1 m, n along each edge: a tetrahedron between the centres of two cells with a common face and each edge
@@ -142,7 +142,9 @@ fn difference(mesh: &BodyMesh, elements: &str) -> f64 {
             .numbering
             .mesh_node
             .iter()
-            .map(|&node| [0, 1, 2].map(|i| if i == 2 && mesh.is_flat() { 0.0 } else { ((5 * node + i) as f64).sin() }))
+            .map(|&node| {
+                [0, 1, 2].map(|i| if i as usize >= mesh.dimension() { 0.0 } else { ((5 * node + i) as f64).sin() })
+            })
             .collect();
         let mut force = vec![[0.0; 3]; system.nodes()];
         system.add_stiffness_times(1.0, &vec![[0.0; 3]; system.nodes()], &d, &mut force);

@@ -2,7 +2,7 @@
 
 use fem_model::simulation::{Cause, EnergyLedger, Simulation};
 
-use crate::vibrations::{frequency, oscillator};
+use crate::vibrations::{bathes_factor, frequency, oscillator};
 use crate::{build, of_law, run, soft};
 
 /// The ledger after so many steps.
@@ -29,6 +29,7 @@ fn each_method_dissipates_in_a_period_what_its_amplification_says() {
         ("linearly_implicit_euler", loss(1.0 / (1.0 + z * z))),
         ("implicit_euler", loss(1.0 / (1.0 + z * z))),
         ("bdf2", bdf2),
+        ("bathe", loss(bathes_factor(z).powi(2))),
     ];
     for (method, expected) in cases {
         let text = oscillator(method, z / frequency(), "[energy]\naccept_gain = true\n");
@@ -49,7 +50,8 @@ fn the_account_of_a_driven_damped_and_plastic_body_is_balanced_as_the_step_falls
                   [damping]\nalpha = 2\nbeta = 1e-3\n[[traction]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\n\
                   force_per_area = [0, 2e3, 0]\ncurve = { sine = { frequency = 5.0 } }\n\
                   [[springs]]\nnodes = [0, 11]\nstiffness = 1e3\ndamping = 20\n";
-    for method in ["semi_implicit_euler", "verlet", "rk4", "implicit_midpoint", "newmark", "generalized_alpha", "bdf2"]
+    for method in
+        ["semi_implicit_euler", "verlet", "rk4", "implicit_midpoint", "newmark", "generalized_alpha", "bdf2", "bathe"]
     {
         let left = |dt: f64| {
             let text = of_law("hencky", &soft(method, dt, driven));
@@ -101,6 +103,7 @@ fn a_body_released_from_a_strain_never_gains_energy_in_steps_far_above_its_perio
         ("newmark", "[newmark]\nbeta = 0.4\n"),
         ("newmark", ""),
         ("bdf2", ""),
+        ("bathe", ""),
     ] {
         let released = "[[prescribed]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\ndisplacement = [0.1, 0, 0]\nuntil = 0.5\n\
                         [fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";

@@ -9,6 +9,7 @@ mod arc_length;
 mod balance;
 mod bars;
 mod cantilever;
+mod central_gravity;
 mod closed_scenes;
 mod conserved;
 mod curves;
@@ -136,7 +137,7 @@ fn of_law(model: &str, scene: &str) -> String {
 }
 
 /// The methods that move.
-const DYNAMIC: [&str; 11] = [
+const DYNAMIC: [&str; 12] = [
     "explicit_euler",
     "semi_implicit_euler",
     "rk2",
@@ -148,10 +149,11 @@ const DYNAMIC: [&str; 11] = [
     "newmark",
     "generalized_alpha",
     "bdf2",
+    "bathe",
 ];
 
 /// The implicit methods of second order.
-const SECOND_ORDER: [&str; 4] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2"];
+const SECOND_ORDER: [&str; 5] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2", "bathe"];
 
 /// `[mass]` of each node when it is lumped, kg.
 fn node_masses(simulation: &dyn Simulation, density: f64) -> Vec<f64> {

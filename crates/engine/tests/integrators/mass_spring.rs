@@ -133,7 +133,7 @@ integrator = "{integrator}"
     let scene = scene(&text);
     let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.75f64.sqrt(), 0.0]].map(Vector3::from).to_vec();
     let triangles = fem_mesh::SurfaceMesh::new(vertices, vec![[0, 1, 2]]);
-    let mesh = BodyMesh::Flat { triangles, thickness: 1.0 };
+    let mesh = BodyMesh::flat(triangles, 1.0);
     let body = fem_scene::body_of(&scene, mesh, std::path::Path::new("no data")).unwrap();
     fem_engine::simulator::build(body, &scene.method()).unwrap()
 }

@@ -1,8 +1,8 @@
 //! Quadratic triangles in equilibrium.
 
-use fem_mesh::{Pattern, QuadraticMesh, quadratic as with_middles, rectangle_mesh};
-use fem_model::Law;
+use fem_mesh::{Mesh, Pattern, rectangle_mesh};
 use fem_model::simulation::Simulation;
+use fem_model::{BodyMesh, Law};
 
 use crate::flat::{affine, flat};
 use crate::{block, build, distance, run, side, soft, try_build};
@@ -12,8 +12,9 @@ pub fn quadratic(text: &str) -> String {
     flat(text).replace("cells_per_unit = 3 }", "cells_per_unit = 3 }\norder = 2")
 }
 
-fn mesh() -> QuadraticMesh {
-    with_middles(rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap())
+fn mesh() -> Mesh<3, 6> {
+    let linear = rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap();
+    BodyMesh::flat(linear, 1.0).of_order(2).unwrap().mesh().unwrap()
 }
 
 fn solved(text: &str) -> Box<dyn Simulation> {

@@ -1,5 +1,6 @@
 //! Quadratic triangles in motion.
 
+use fem_engine::elements::shares::{load_shares, lumped_mass_shares};
 use fem_model::simulation::Simulation;
 use fem_scene::output::{export, resume, write_state};
 use nalgebra::Vector3;
@@ -29,10 +30,10 @@ fn a_free_body_falls_without_deformation_with_every_method_and_either_mass() {
 /// Row sums of the mass of each node, kg.
 fn masses(simulation: &dyn Simulation, lumped: bool) -> Vec<f64> {
     let mesh = &simulation.shape().mesh;
-    let shares = if lumped { mesh.lumped_mass_shares() } else { mesh.load_shares() };
+    let shares = if lumped { lumped_mass_shares } else { load_shares }(mesh.element());
     let mut masses = vec![0.0; mesh.vertices().len()];
     for (nodes, volume) in mesh.corners().zip(mesh.volumes()) {
-        nodes.iter().zip(shares).for_each(|(&node, share)| masses[node] += 1000.0 * volume * share);
+        nodes.iter().zip(&shares).for_each(|(&node, share)| masses[node] += 1000.0 * volume * share);
     }
     masses
 }

@@ -28,6 +28,7 @@ fn in_motion_reactions_and_loads_change_the_momentum() {
         "newmark",
         "generalized_alpha",
         "bdf2",
+        "bathe",
     ] {
         for rest in ["", "[mass]\nlumped = true\n", "[damping]\nbeta = 1e-2\n"] {
             let mut simulation = build(&soft(integrator, 1e-4, &format!("{WEIGHT}{CLAMP}{rest}")));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Interactive, Simulation};
 use nalgebra::Vector3;
 
 use crate::{DYNAMIC, distance, node_masses, run, scene, soft};

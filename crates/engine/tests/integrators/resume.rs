@@ -108,7 +108,7 @@ fn verlet_goes_on_with_the_acceleration_that_it_keeps() {
 
 #[test]
 fn a_release_before_or_after_the_interruption_is_kept() {
-    let cases = ["implicit_euler", "newmark", "bdf2"].map(|integrator| (integrator, "0.08"));
+    let cases = ["implicit_euler", "newmark", "bdf2", "bathe"].map(|integrator| (integrator, "0.08"));
     for (integrator, until) in cases.into_iter().chain([("verlet", "8e-4")]) {
         let text = body_of(integrator, "f64", if integrator == "verlet" { "" } else { NEWTON }, 2);
         assert_goes_on(&format!("{text}until = {until}\n"));

@@ -22,7 +22,7 @@ fn the_large_armadillo_has_as_many_nodes_and_tetrahedra_as_it_says() {
 fn the_fine_armadillo_is_made_inside_its_surface_with_the_angles_of_isosurface_stuffing() {
     let mesh = body(&load("armadillo-fine", &data()).unwrap(), &data()).unwrap().shape.mesh;
     assert_eq!((mesh.vertices().len(), mesh.elements()), (9331, 42382));
-    let [smallest, largest] = fem_mesh::quality(mesh.solid().unwrap()).dihedral_angles.map(|angle| angle.value);
+    let [smallest, largest] = fem_mesh::quality(&mesh.mesh().unwrap()).dihedral_angles.map(|angle| angle.value);
     assert!(smallest >= 10.7 && largest <= 164.8, "{smallest} {largest}");
 }
 

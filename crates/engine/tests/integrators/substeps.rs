@@ -12,7 +12,7 @@ const REST: &str = "[gravity]\nacceleration = [0, -20, 0]\n[damping]\nalpha = 1.
 const DT: f64 = 1.0 / 64.0;
 
 fn text(integrator: &str, dt: f64, substeps: usize) -> String {
-    let rest = if integrator == "linearly_implicit_euler" {
+    let rest = if ["linearly_implicit_euler", "bathe"].contains(&integrator) {
         REST.split("[[planes]]").next().unwrap().to_owned()
     } else {
         REST.to_owned()

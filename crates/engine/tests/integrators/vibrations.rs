@@ -1,5 +1,8 @@
 //! One node on one spring: limits of stability, damping.
 
+use fem_model::simulation::Simulation;
+use nalgebra::Complex;
+
 use crate::{build, node_masses};
 
 /// A box with one free node. Its material is so soft that only an anchor spring along x acts on that node.
@@ -72,7 +75,7 @@ fn methods_are_stable_up_to_their_limit_and_not_beyond() {
         let at = swing(integrator, 0.5, "");
         assert!(at > 1e3, "{integrator} does not grow: {at}");
     }
-    for integrator in ["linearly_implicit_euler", "implicit_euler", "generalized_alpha", "bdf2"] {
+    for integrator in ["linearly_implicit_euler", "implicit_euler", "generalized_alpha", "bdf2", "bathe"] {
         let at = swing(integrator, 50.0, "");
         assert!(at < 1.0, "{integrator}: {at}");
     }
@@ -127,6 +130,7 @@ fn damping_decays_at_its_rate() {
             ("newmark", 200.0, 1e-4),
             ("generalized_alpha", 200.0, 1e-4),
             ("bdf2", 200.0, 1e-3),
+            ("bathe", 200.0, 1e-4),
             ("semi_implicit_euler", 400.0, 5e-3),
             ("implicit_euler", 400.0, 2e-2),
             ("linearly_implicit_euler", 400.0, 2e-2),
@@ -135,4 +139,57 @@ fn damping_decays_at_its_rate() {
             assert!(error < tolerance, "{integrator}, {alpha} and {beta}: {error:e}");
         }
     }
+}
+
+/// The factor by which Bathe's method multiplies the amplitude of a vibration in a step, z = ω dt: |R(iz)| of its stability function.
+pub fn bathes_factor(z: f64) -> f64 {
+    let stage = 2.0 - 2f64.sqrt();
+    let half = Complex::new(0.0, 0.5 * stage * z);
+    let at_stage = (1.0 + half) / (1.0 - half);
+    let c = [(1.0 - stage) / stage, -1.0 / ((1.0 - stage) * stage), (2.0 - stage) / (1.0 - stage)];
+    ((-c[0] - c[1] * at_stage) / (c[2] - Complex::new(0.0, z))).norm()
+}
+
+/// Amplitudes of a slow and of a fast vibration after so many steps, relative to those at the start: √(ω² x² + v²) of two nodes on linear
+/// springs, of which the second one is 10⁴ times as stiff.
+fn amplitudes(integrator: &str, z: f64, steps: usize) -> [f64; 2] {
+    let slow = frequency();
+    let text = oscillator(integrator, z / slow, "[newton]\ntolerance = 1e-12\n")
+        .replace("nodes = [0, 1, 2, 3, 4, 6,", "nodes = [0, 1, 2, 4, 6,")
+        .replace(
+            "stiffness = 1e6",
+            "stiffness = 1e6\nrest_length = 0\n[[springs]]\nnodes = [4, 3]\nstiffness = 1e10\nrest_length = 0",
+        );
+    let mut simulation = build(&text);
+    let masses = node_masses(&*simulation, 1000.0);
+    let of = |simulation: &dyn Simulation, node: usize, stiffness: f64| {
+        let square = stiffness / masses[node];
+        // Gravity is 1 m/s².
+        let x = simulation.positions()[3 * node] - 1.0 - 1.0 / square;
+        (square * x * x + simulation.velocities()[3 * node].powi(2)).sqrt()
+    };
+    let both = |simulation: &dyn Simulation| [of(simulation, 5, 1e6), of(simulation, 3, 1e10)];
+    let start = both(&*simulation);
+    (0..steps).for_each(|_| simulation.step().unwrap());
+    let end = both(&*simulation);
+    [0, 1].map(|mode| end[mode] / start[mode])
+}
+
+#[test]
+fn bathes_method_ends_fast_vibrations_and_keeps_slow_ones_as_its_stability_function_says() {
+    let masses = node_masses(&*build(&oscillator("verlet", 1.0, "")), 1000.0);
+    let ratio = (1e4 * masses[5] / masses[3]).sqrt();
+    for z in [0.02, 0.1, 0.5, 2.0] {
+        let [slow, fast] = amplitudes("bathe", z, 4);
+        let expected = [z, ratio * z].map(|z| bathes_factor(z).powi(4));
+        println!("{z}: {slow:e}, {fast:e}, expected {expected:?}");
+        assert!(
+            (slow - expected[0]).abs() < 1e-8 && (fast - expected[1]).abs() < 1e-8,
+            "{z}: {slow} {fast} {expected:?}"
+        );
+    }
+    // In 40 steps the generalized-α method with ρ∞ = 0.8 leaves 0.8⁴⁰ = 1e-4 of the fast vibration.
+    let (bathe, alpha) = (amplitudes("bathe", 0.1, 40), amplitudes("generalized_alpha", 0.1, 40));
+    println!("{bathe:?} {alpha:?}");
+    assert!(bathe[1] < 1e-6 && alpha[1] > 1e-5, "{bathe:?} {alpha:?}");
 }

@@ -116,7 +116,7 @@ fn with(text: &str, place: &std::ops::Range<usize>, value: &str) -> String {
 /// The scene with everything that this method uses.
 fn by_method(integrator: &str) -> String {
     let unused: &[&str] = match integrator {
-        "implicit_euler" | "implicit_midpoint" | "newmark" | "generalized_alpha" | "bdf2" => &[],
+        "implicit_euler" | "implicit_midpoint" | "newmark" | "generalized_alpha" | "bdf2" | "bathe" => &[],
         "linearly_implicit_euler" => &["[newton]"],
         "static" => &["[damping]"],
         _ => &["[newton]", "[solver]"],

@@ -63,7 +63,7 @@ pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
     let is_forward = |side: usize| mesh.elements[side / 3][side % 3] < mesh.elements[side / 3][(side % 3 + 1) % 3];
     let is_flipped = |edge: &&[Side]| matches!(**edge, [(_, a), (_, b)] if is_forward(a) == is_forward(b));
     let lengths = edges().map(|edge| edge[0].0).map(|[a, b]| (mesh.vertices[a] - mesh.vertices[b]).norm());
-    let part = parts(mesh);
+    let part = parts(mesh.vertices.len(), &mesh.elements);
     // Relative to a vertex, volumes keep their digits far from the origin.
     let origin = mesh.vertices.first().copied().unwrap_or_default();
     let volume = |element: &[usize; 3]| {

@@ -27,7 +27,7 @@ use nalgebra::Vector3;
 
 pub use self::glb::{Frame, write_glb};
 pub use self::pvd::write_pvd;
-pub use self::vtu::{Field, write_vtu};
+pub use self::vtu::{Field, Grid, write_vtu};
 use super::read::{MESHES, SURFACES, extension, is_packed, is_surface, unknown_extension};
 use super::{AnyMesh, Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 

@@ -50,7 +50,7 @@ fn in_sphere([a, b, c, d]: [Point; 4], e: Point) -> i128 {
 /// Delaunay's lemma makes a mesh with these local properties globally Delaunay.
 fn is_delaunay(points: &[Point]) {
     let coordinates: Vec<Vector3<f64>> = points.iter().map(|x| Vector3::from(x.map(|x| x as f64))).collect();
-    assert_delaunay(points, &tetrahedralize(&coordinates).unwrap());
+    assert_delaunay(points, &tetrahedralize(&coordinates, &|_| ()).unwrap());
 }
 
 /// [`is_delaunay`] of a mesh that is known.
@@ -117,7 +117,7 @@ fn is_convex<'a>(faces: impl Iterator<Item = &'a ([usize; 4], usize)>, at: impl 
 
 fn is_in_space(points: &[Point]) -> bool {
     let coordinates: Vec<Vector3<f64>> = points.iter().map(|x| Vector3::from(x.map(|x| x as f64))).collect();
-    tetrahedralize(&coordinates).is_ok()
+    tetrahedralize(&coordinates, &|_| ()).is_ok()
 }
 
 /// Number of cases of a property test; `DELAUNAY_CASES` sets another.
@@ -188,7 +188,7 @@ fn tiny_perturbations_of_a_grid_do_not_break_it() {
         // Coordinates of 41 bits: determinants of the fifth degree have more digits than i128, so count volumes only.
         let points: Vec<Point> = moved(seed);
         let coordinates: Vec<Vector3<f64>> = points.iter().map(|x| Vector3::from(x.map(|x| x as f64))).collect();
-        let found = tetrahedralize(&coordinates).unwrap();
+        let found = tetrahedralize(&coordinates, &|_| ()).unwrap();
         let six_volumes = found.mesh.elements.iter().map(|element| {
             let [a, b, c, d] = element.map(|i| std::array::from_fn(|k| found.mesh.vertices[i][k] as i64));
             let volume = volume(a, b, c, d);
@@ -203,7 +203,7 @@ fn tiny_perturbations_of_a_grid_do_not_break_it() {
 #[test]
 fn points_at_one_place_share_the_vertex_of_the_first() {
     let corner = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3], [-0.0, 0.0, 1.0]];
-    let found = tetrahedralize(&corner.map(Vector3::from)).unwrap();
+    let found = tetrahedralize(&corner.map(Vector3::from), &|_| ()).unwrap();
     assert_eq!(found.vertices, [0, 1, 2, 3, 0, 3]);
     assert_eq!(found.mesh.elements.len(), 1);
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-0.0, 0.0]];
@@ -215,10 +215,13 @@ fn points_at_one_place_share_the_vertex_of_the_first() {
 #[test]
 fn points_without_a_mesh_are_refused() {
     let flat: Vec<Vector3<f64>> = (0..20).map(|i| Vector3::new(f64::from(i % 5), f64::from(i / 5), 7.0)).collect();
-    assert_eq!(tetrahedralize(&flat).unwrap_err(), DelaunayError::Flat { points: 20, in_what: "in one plane" });
+    assert_eq!(
+        tetrahedralize(&flat, &|_| ()).unwrap_err(),
+        DelaunayError::Flat { points: 20, in_what: "in one plane" }
+    );
     let same = vec![Vector3::new(1.0, 2.0, 3.0); 9];
-    assert_eq!(tetrahedralize(&same).unwrap_err(), DelaunayError::Flat { points: 9, in_what: "in one plane" });
-    assert!(tetrahedralize(&[]).is_err() && triangulate(&[]).is_err());
+    assert_eq!(tetrahedralize(&same, &|_| ()).unwrap_err(), DelaunayError::Flat { points: 9, in_what: "in one plane" });
+    assert!(tetrahedralize(&[], &|_| ()).is_err() && triangulate(&[]).is_err());
     let line: Vec<Vector2<f64>> = (0..9).map(|i| Vector2::new(f64::from(i), 0.1 * f64::from(i))).collect();
     let refused = triangulate(&[&line[..], &[Vector2::new(9.0, f64::NAN)]].concat()).unwrap_err();
     assert_eq!(refused, DelaunayError::NotFinite { point: 9 });
@@ -228,10 +231,10 @@ fn points_without_a_mesh_are_refused() {
     for bad in [f64::INFINITY, f64::NAN, 1e100] {
         let mut points = flat.clone();
         points[3].z = bad;
-        assert_eq!(tetrahedralize(&points).unwrap_err(), DelaunayError::NotFinite { point: 3 });
+        assert_eq!(tetrahedralize(&points, &|_| ()).unwrap_err(), DelaunayError::NotFinite { point: 3 });
     }
     let tiny = [[0.0; 3], [1e-300, 0.0, 0.0], [0.0, 1e-300, 0.0], [0.0, 0.0, 1e-300]];
-    assert!(tetrahedralize(&tiny.map(Vector3::from)).is_err());
+    assert!(tetrahedralize(&tiny.map(Vector3::from), &|_| ()).is_err());
 }
 
 #[test]

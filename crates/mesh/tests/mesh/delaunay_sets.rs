@@ -131,7 +131,7 @@ fn hold_in_space((cases, is_long): (Range<u64>, bool), seed: u64, set: fn(&mut R
         let count = random.count(is_long);
         let points = set(&mut random, count);
         let coordinates: Vec<Vector3<f64>> = points.iter().map(|x| Vector3::from(x.map(|x| x as f64))).collect();
-        let checked = std::panic::catch_unwind(|| match tetrahedralize(&coordinates) {
+        let checked = std::panic::catch_unwind(|| match tetrahedralize(&coordinates, &|_| ()) {
             Ok(found) => assert_delaunay(&points, &found),
             Err(error) => assert!(is_flat(&points), "{error}"),
         });

@@ -113,7 +113,7 @@ fn named_sets_of_a_plane_mesh_survive_gmsh_files() {
     write_surface(&path, &mesh).unwrap();
     assert_eq!(read_surface(&path).unwrap(), mesh);
     assert_eq!(mesh.sets["some"].counts_of_triangles(), "3 triangles");
-    assert_eq!(mesh.sets["side"].nodes(&mesh.elements).len(), 3);
+    assert_eq!(mesh.sets["side"].nodes(|element| &mesh.elements[element]).len(), 3);
 }
 
 #[test]

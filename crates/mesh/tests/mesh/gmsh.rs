@@ -132,8 +132,8 @@ fn groups_of_one_name_or_number_in_two_dimensions_are_one_set_whose_nodes_are_th
     let mesh = read(text.as_bytes());
     let set = &mesh.sets["4"];
     assert_eq!((set.faces.len(), set.elements.len()), (1, 2));
-    assert_eq!(set.nodes(&mesh.elements), [0, 1, 2]);
-    assert_eq!(mesh.sets["7"].nodes(&mesh.elements), [1, 2, 3, 4]);
+    assert_eq!(set.nodes(|element| &mesh.elements[element]), [0, 1, 2]);
+    assert_eq!(mesh.sets["7"].nodes(|element| &mesh.elements[element]), [1, 2, 3, 4]);
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn cloud(points: usize, seed: u64) -> TetrahedralMesh {
     let on_side = |x: &Vector3<f64>| x.iter().any(|&x| x == 0.0 || x == 1.0);
     let grid = box_mesh([1.0, 1.0, 1.0], 6, Pattern::Alternating).unwrap().vertices.into_iter().filter(on_side);
     let inside = (0..points).map(|_| Vector3::from_fn(|_, _| 0.08 + 0.84 * next()));
-    tetrahedralize(&grid.chain(inside).collect::<Vec<_>>()).unwrap().mesh
+    tetrahedralize(&grid.chain(inside).collect::<Vec<_>>(), &|_| ()).unwrap().mesh
 }
 
 fn faces(mesh: &TetrahedralMesh) -> BTreeSet<[usize; 3]> {
@@ -75,7 +75,7 @@ fn is_sound(before: &TetrahedralMesh, improved: &Improved) {
 fn the_energy_falls_the_worst_element_rises_and_the_boundary_stays() {
     for seed in 1..=6 {
         let mesh = if seed % 2 == 0 { shaken_box(6, 0.6, seed) } else { cloud(150, seed) };
-        let improved = improve_tetrahedra(&mesh, 6);
+        let improved = improve_tetrahedra(&mesh, 6, &|_| ());
         is_sound(&mesh, &improved);
         let energy = |i: usize| improved.smoothing[i].energy;
         assert!(energy(6) < 0.98 * energy(0), "seed {seed}: {} {}", energy(0), energy(6));
@@ -88,7 +88,7 @@ fn the_energy_falls_the_worst_element_rises_and_the_boundary_stays() {
 fn the_tetrahedra_inside_a_surface_lose_their_worst_angles() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/stanford/armadillo_12k.obj");
     let mesh = stuff(&read_surface(file.as_ref()).unwrap(), 0.05).unwrap();
-    let improved = improve_tetrahedra(&mesh, 5);
+    let improved = improve_tetrahedra(&mesh, 5, &|_| ());
     is_sound(&mesh, &improved);
     let [old, new] = [&mesh, &improved.mesh].map(|mesh| quality(mesh).dihedral_angles[0].value);
     assert!(new > 1.4 * old, "{old} {new}");
@@ -99,7 +99,7 @@ fn the_boundary_slides_on_the_surface_and_gains_more() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/stanford/armadillo_12k.obj");
     let surface = read_surface(file.as_ref()).unwrap();
     let (mesh, solid) = (stuff(&surface, 0.05).unwrap(), Solid::new(&surface));
-    let improved = improve_inside(&mesh, 5, &solid).mesh;
+    let improved = improve_inside(&mesh, 5, &solid, &|_| ()).mesh;
     check(&improved, "improved".as_ref()).unwrap();
     assert_eq!(faces(&mesh), faces(&improved));
     for vertex in boundary(&improved).into_iter().flatten() {
@@ -116,24 +116,24 @@ fn the_boundary_slides_on_the_surface_and_gains_more() {
 #[test]
 fn without_iterations_the_mesh_is_the_same() {
     let mesh = shaken_box(3, 0.4, 1);
-    assert_eq!(improve_tetrahedra(&mesh, 0).mesh, mesh);
+    assert_eq!(improve_tetrahedra(&mesh, 0, &|_| ()).mesh, mesh);
 }
 
 #[test]
 fn improvement_ends_when_it_gains_nothing_whatever_the_number_of_iterations() {
     let mesh = shaken_box(3, 0.4, 1);
-    let improved = improve_tetrahedra(&mesh, usize::MAX);
+    let improved = improve_tetrahedra(&mesh, usize::MAX, &|_| ());
     is_sound(&mesh, &improved);
     assert!(improved.smoothing.len() < 500 && improved.polishing.len() < 500);
     let one = TetrahedralMesh::new(mesh.elements[0].map(|i| mesh.vertices[i]).to_vec(), vec![[0, 1, 2, 3]]);
-    assert_eq!(improve_tetrahedra(&one, 10).mesh, one);
-    assert_eq!(improve_tetrahedra(&TetrahedralMesh::default(), 10).mesh, TetrahedralMesh::default());
+    assert_eq!(improve_tetrahedra(&one, 10, &|_| ()).mesh, one);
+    assert_eq!(improve_tetrahedra(&TetrahedralMesh::default(), 10, &|_| ()).mesh, TetrahedralMesh::default());
 }
 
 #[test]
 fn the_same_mesh_is_improved_in_the_same_way() {
     let mesh = cloud(60, 9);
-    assert_eq!(improve_tetrahedra(&mesh, 3), improve_tetrahedra(&mesh, 3));
+    assert_eq!(improve_tetrahedra(&mesh, 3, &|_| ()), improve_tetrahedra(&mesh, 3, &|_| ()));
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn sets_keep_their_volumes_and_the_faces_edges_and_points_that_they_name() {
     };
     mesh.sets = [("west", west), ("east", east), ("named", named)].map(|(name, set)| (name.to_owned(), set)).into();
     check(&mesh, "sets".as_ref()).unwrap();
-    let improved = improve_tetrahedra(&mesh, 5);
+    let improved = improve_tetrahedra(&mesh, 5, &|_| ());
     is_sound(&mesh, &improved); // its check refuses a set with a face or an edge that is no part of the mesh
     assert_eq!(improved.mesh.sets["named"], mesh.sets["named"]);
     assert_eq!(improved.mesh.vertices[230], mesh.vertices[230]);

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
-use fem_mesh::generate::delaunay::{tetrahedralize, tetrahedralize_with};
-use fem_mesh::generate::odt::{improve_inside, improve_inside_with, improve_tetrahedra, improve_tetrahedra_with};
-use fem_mesh::generate::{Progress, Solid, stuff_graded, stuff_graded_with};
+use fem_mesh::generate::delaunay::tetrahedralize;
+use fem_mesh::generate::odt::{improve_inside, improve_tetrahedra};
+use fem_mesh::generate::{Progress, Solid, stuff_graded};
 use fem_mesh::{Pattern, SurfaceMesh, boundary, box_mesh};
 use nalgebra::Vector3;
 
@@ -22,17 +22,17 @@ fn told<R>(work: impl FnOnce(Progress) -> R) -> R {
 fn the_share_of_the_work_that_is_done_rises() {
     let digits = |i: usize| (i as f64 * 12.9898).sin();
     let points: Vec<_> = (0..1000).map(|i| Vector3::new(digits(3 * i), digits(3 * i + 1), digits(3 * i + 2))).collect();
-    let found = told(|progress| tetrahedralize_with(&points, progress)).unwrap();
-    assert_eq!(found.mesh, tetrahedralize(&points).unwrap().mesh);
+    let found = told(|progress| tetrahedralize(&points, progress)).unwrap();
+    assert_eq!(found.mesh, tetrahedralize(&points, &|_| ()).unwrap().mesh);
 
     let solid = box_mesh([1.0, 0.7, 0.5], 10, Pattern::Alternating).unwrap();
     let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
-    let stuffed = told(|progress| stuff_graded_with(&surface, 0.1, 1, progress)).unwrap();
-    assert_eq!(stuffed, stuff_graded(&surface, 0.1, 1).unwrap());
+    let stuffed = told(|progress| stuff_graded(&surface, 0.1, 1, progress)).unwrap();
+    assert_eq!(stuffed, stuff_graded(&surface, 0.1, 1, &|_| ()).unwrap());
 
-    let improved = told(|progress| improve_tetrahedra_with(&stuffed, 2, progress));
-    assert_eq!(improved, improve_tetrahedra(&stuffed, 2));
+    let improved = told(|progress| improve_tetrahedra(&stuffed, 2, progress));
+    assert_eq!(improved, improve_tetrahedra(&stuffed, 2, &|_| ()));
     let inside = Solid::new(&surface);
-    let improved = told(|progress| improve_inside_with(&stuffed, 2, &inside, progress));
-    assert_eq!(improved, improve_inside(&stuffed, 2, &inside));
+    let improved = told(|progress| improve_inside(&stuffed, 2, &inside, progress));
+    assert_eq!(improved, improve_inside(&stuffed, 2, &inside, &|_| ()));
 }

@@ -64,7 +64,7 @@ fn every(surface: &SurfaceMesh, n: usize, k: usize) -> impl Iterator<Item = usiz
 /// characteristic.
 fn is_sound(mesh: &TetrahedralMesh) -> (f64, i64) {
     check(mesh, "stuffed".as_ref()).unwrap();
-    assert_eq!(coincident_nodes(mesh), None);
+    assert_eq!(coincident_nodes(&mesh.vertices), None);
     let [smallest, largest] = quality(mesh).dihedral_angles.map(|angle| angle.value);
     assert!(smallest >= 10.7 && largest <= 164.8, "{smallest} {largest}");
     let surface = surface_quality(&SurfaceMesh::new(mesh.vertices.clone(), boundary(mesh)));
@@ -130,12 +130,12 @@ fn a_graded_mesh_has_the_boundary_of_the_uniform_one_and_fewer_elements() {
         boundary(mesh).into_iter().map(place).collect::<BTreeSet<_>>()
     };
     for doublings in [1, 3, 60] {
-        let graded = stuff_graded(&surface, 0.06, doublings).unwrap();
+        let graded = stuff_graded(&surface, 0.06, doublings, &|_| ()).unwrap();
         is_sound(&graded);
         assert!(places(&graded) == places(&uniform), "{doublings}");
         assert!(graded.elements.len() * 3 < uniform.elements.len() * 2, "{doublings}: {}", graded.elements.len());
     }
-    assert_eq!(stuff_graded(&surface, 0.06, 0).unwrap(), uniform);
+    assert_eq!(stuff_graded(&surface, 0.06, 0, &|_| ()).unwrap(), uniform);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 /// A number that the user may change while the simulation runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Name for [`Simulation::set_parameter`](super::Simulation::set_parameter).
+    /// Name for [`Interactive::set_parameter`](super::Interactive::set_parameter).
     pub key: &'static str,
     /// Name on the screen.
     pub label: &'static str,

@@ -2,9 +2,8 @@
 
 use crate::tables::{RangeTable, Spacing};
 use crate::{Pipeline, Scene};
-use fem_model::Integrator;
-use fem_model::Refusal;
 use fem_model::numbers::{check_finite, problem};
+use fem_model::{Integrator, Refusal};
 
 /// Most environments.
 const MOST: usize = 65_536;

@@ -3,9 +3,8 @@
 use super::selector::check_one;
 use crate::Scene;
 use crate::tables::{FixedTable, PrescribedTable, RotationTable};
-use fem_model::Refusal;
 use fem_model::numbers::{check_finite, check_positive, check_vector, problem};
-use fem_model::{Axis, Integrator};
+use fem_model::{Axis, Integrator, Refusal};
 
 /// Largest number of turns: an angle of this size still has ten digits.
 const MOST_TURNS: f64 = 1e6;

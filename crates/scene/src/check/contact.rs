@@ -2,9 +2,8 @@
 
 use crate::Scene;
 use crate::tables::PlaneTable;
-use fem_model::Integrator;
-use fem_model::Refusal;
 use fem_model::numbers::{check_not_negative, check_positive, check_vector, problem};
+use fem_model::{Integrator, Refusal};
 
 /// Returns the first problem of contact, the combinations with the method included.
 pub(crate) fn check(scene: &Scene) -> Result<(), Refusal> {

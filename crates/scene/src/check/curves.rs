@@ -2,9 +2,8 @@
 
 use crate::Scene;
 use crate::tables::CurveTable;
-use fem_model::Integrator;
-use fem_model::Refusal;
 use fem_model::numbers::problem;
+use fem_model::{Integrator, Refusal};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     let gravity = scene.gravity.iter().map(|table| ("gravity".to_owned(), &table.curve));

@@ -31,10 +31,6 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Refusal> {
 
 /// Refuses the first key that has no effect on a solid body.
 pub(crate) fn check_solid(scene: &Scene) -> Result<(), Refusal> {
-    if scene.mesh.order == 2 {
-        let text = "is 2, and this body has tetrahedra, which are linear; write 1, and refine = 1 for more elements";
-        return problem("mesh.order", text);
-    }
     let MaterialTable { thickness, plane, .. } = &scene.material;
     match [("material.thickness", thickness.is_some()), ("material.plane", plane.is_some())].iter().find(|key| key.1) {
         Some((key, _)) => problem(key, "belongs to flat bodies, and this one is solid; remove it"),
@@ -75,39 +71,26 @@ fn vectors(scene: &Scene) -> impl Iterator<Item = (String, [f64; 3])> {
     let gravity = scene.gravity.iter().map(|table| ("gravity.acceleration".to_owned(), table.acceleration));
     let body_force = scene.body_force.iter().map(|table| ("body_force.density".to_owned(), table.density));
     let drag = scene.drag.iter().map(|table| ("drag.direction".to_owned(), table.direction));
-    let traction = scene
-        .traction
-        .iter()
-        .enumerate()
-        .filter_map(|(number, table)| Some((format!("traction[{number}].force_per_area"), table.force_per_area?)));
-    let forces = scene.force.iter().enumerate().map(|(number, table)| (format!("force[{number}].value"), table.value));
-    let loads = traction.chain(forces);
-    let prescribed = scene
-        .prescribed
-        .iter()
-        .enumerate()
-        .filter_map(|(number, table)| Some((format!("prescribed[{number}].displacement"), table.displacement?)));
-    let speeds = scene
-        .prescribed
-        .iter()
-        .enumerate()
-        .filter_map(|(number, table)| Some((format!("prescribed[{number}].velocity"), table.velocity?)));
-    let prescribed = prescribed.chain(speeds);
-    let velocity = scene.initial_velocity.iter().enumerate().flat_map(|(number, table)| {
-        table.velocity.map(|velocity| (format!("initial_velocity[{number}].velocity"), velocity))
-    });
-    let normals =
-        scene.planes.iter().enumerate().map(|(number, plane)| (format!("planes[{number}].normal"), plane.normal));
-    let velocities = scene
-        .planes
-        .iter()
-        .enumerate()
-        .filter_map(|(number, plane)| Some((format!("planes[{number}].velocity"), plane.velocity?)));
-    let displacements = scene
-        .planes
-        .iter()
-        .enumerate()
-        .filter_map(|(number, plane)| Some((format!("planes[{number}].displacement"), plane.displacement?)));
-    let planes = normals.chain(velocities).chain(displacements);
-    gravity.chain(body_force).chain(drag).chain(loads).chain(prescribed).chain(velocity).chain(planes)
+    let tractions = of_each("traction", &scene.traction, "force_per_area", |table| table.force_per_area);
+    let forces = of_each("force", &scene.force, "value", |table| Some(table.value));
+    let displacements = of_each("prescribed", &scene.prescribed, "displacement", |table| table.displacement);
+    let speeds = of_each("prescribed", &scene.prescribed, "velocity", |table| table.velocity);
+    let initial = of_each("initial_velocity", &scene.initial_velocity, "velocity", |table| table.velocity);
+    let normals = of_each("planes", &scene.planes, "normal", |plane| Some(plane.normal));
+    let velocities = of_each("planes", &scene.planes, "velocity", |plane| plane.velocity);
+    let of_planes = of_each("planes", &scene.planes, "displacement", |plane| plane.displacement);
+    let loads = gravity.chain(body_force).chain(drag).chain(tractions).chain(forces);
+    let planes = normals.chain(velocities).chain(of_planes);
+    loads.chain(displacements).chain(speeds).chain(initial).chain(planes)
+}
+
+/// The vector of a key in each table that gives it, with its field.
+fn of_each<'a, T>(
+    name: &'a str,
+    tables: &'a [T],
+    key: &'a str,
+    vector: impl Fn(&T) -> Option<[f64; 3]> + 'a,
+) -> impl Iterator<Item = (String, [f64; 3])> + 'a {
+    let of_table = move |(number, table)| Some((format!("{name}[{number}].{key}"), vector(table)?));
+    tables.iter().enumerate().filter_map(of_table)
 }

@@ -3,9 +3,8 @@
 use super::selector::check_one;
 use crate::Scene;
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
-use fem_model::Integrator;
-use fem_model::Refusal;
 use fem_model::numbers::{check_finite, check_vector, problem};
+use fem_model::{Integrator, Refusal};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     for (number, velocity) in scene.initial_velocity.iter().enumerate() {

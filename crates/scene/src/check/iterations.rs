@@ -3,9 +3,8 @@
 use super::check_tolerance;
 use crate::tables::IterationsTable;
 use crate::{Pipeline, Scene};
-use fem_model::Integrator;
-use fem_model::Refusal;
 use fem_model::numbers::problem;
+use fem_model::{Integrator, Refusal};
 
 /// Largest number of iterations: a run answers to a signal, and the window to its user, after a step.
 const MOST_ITERATIONS: usize = 1_000_000;

@@ -21,6 +21,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
         check_one(&table, &force.selectors(), "plane, on, box, sphere, set and nodes")?;
         check_vector(&format!("{table}.value"), &force.value)?;
     }
+    scene.fields().check()?;
     for (number, spring) in scene.springs.iter().enumerate() {
         check_spring(&format!("springs[{number}]"), spring)?;
     }

@@ -15,11 +15,12 @@ mod second_order;
 mod selector;
 mod unused;
 
+pub(crate) use unused::missing_tables;
+
 use crate::Scene;
 use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTable, TimeTable};
-use fem_model::Refusal;
 use fem_model::numbers::{check_not_negative, check_positive, problem};
-use fem_model::{Integrator, SolverKind};
+use fem_model::{Integrator, Refusal, SolverKind};
 
 /// Largest number of refinements: 8⁴ = 4096 tetrahedra for each of the mesh file, or 4⁴ = 256 triangles.
 const MOST_REFINEMENTS: u32 = 4;

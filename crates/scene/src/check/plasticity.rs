@@ -2,9 +2,8 @@
 
 use crate::tables::{PlasticModel, PlasticityTable};
 use crate::{Pipeline, Scene};
-use fem_model::Integrator;
-use fem_model::Refusal;
 use fem_model::numbers::{check_not_negative, check_positive, problem};
+use fem_model::{Integrator, Refusal};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     let Some(table) = &scene.plasticity else { return Ok(()) };

@@ -3,9 +3,8 @@
 use super::check_tolerance;
 use crate::Scene;
 use crate::tables::{GeneralizedAlphaTable, NewmarkTable};
-use fem_model::Integrator;
-use fem_model::Refusal;
 use fem_model::numbers::{check_finite, problem};
+use fem_model::{Integrator, Refusal};
 
 /// Returns the first parameter of an implicit method of second order that is out of range.
 pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {

@@ -1,8 +1,7 @@
 //! Checks of selectors.
 
-use fem_model::Refusal;
 use fem_model::numbers::{check_positive, check_vector, problem};
-use fem_model::{Region, Selector};
+use fem_model::{Refusal, Region, Selector};
 
 /// Checks that a table has exactly one selector, and its numbers. `keys` lists those that it may have.
 pub(super) fn check_one(table: &str, selectors: &[Selector], keys: &str) -> Result<(), Refusal> {

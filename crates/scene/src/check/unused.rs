@@ -1,9 +1,8 @@
 //! Tables that have no effect with the integrator of the scene.
 
 use crate::{Pipeline, Scene};
-use fem_model::Refusal;
 use fem_model::numbers::problem;
-use fem_model::{Integrator, SolverKind};
+use fem_model::{Integrator, Refusal, SolverKind};
 
 /// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
 type Use = (&'static str, bool, bool, &'static str);
@@ -43,6 +42,11 @@ fn uses(scene: &Scene) -> [Use; 9] {
         ("damping", scene.damping.is_some(), !is_static, "a method that moves: equilibrium has no velocities"),
         ("energy", scene.energy.is_some(), !is_static, "a method that moves: statics has no energy ledger"),
     ]
+}
+
+/// The tables of the list above that a scene does not have.
+pub(crate) fn missing_tables(scene: &Scene) -> impl Iterator<Item = &'static str> {
+    uses(scene).into_iter().filter(|(_, is_there, ..)| !is_there).map(|(table, ..)| table)
 }
 
 /// Returns true if whole steps run on a graphics device.

@@ -7,7 +7,6 @@ use fem_mesh::{tetrahedron_radius_to_edge, triangle_radius_to_edge};
 use nalgebra::Vector3;
 
 use super::von_mises;
-use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
 
 /// A field of one number per element.
@@ -26,30 +25,28 @@ impl ElementField {
     /// All fields.
     pub const ALL: [Self; 3] = [Self::Stress, Self::PlasticStrain, Self::Quality];
 
+    /// Names for the command line and on the screen, and SI unit, which is empty for a field without one.
+    fn facts(self) -> [&'static str; 3] {
+        match self {
+            Self::Stress => ["stress", "von Mises stress", "Pa"],
+            Self::PlasticStrain => ["plastic_strain", "plastic strain", ""],
+            Self::Quality => ["quality", "circumradius / edge", ""],
+        }
+    }
+
     /// Name for the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Stress => "stress",
-            Self::PlasticStrain => "plastic_strain",
-            Self::Quality => "quality",
-        }
+        self.facts()[0]
     }
 
     /// Name on the screen.
     pub fn label(self) -> &'static str {
-        match self {
-            Self::Stress => "von Mises stress",
-            Self::PlasticStrain => "plastic strain",
-            Self::Quality => "circumradius / edge",
-        }
+        self.facts()[1]
     }
 
     /// SI unit; empty for a field without one.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Stress => "Pa",
-            Self::PlasticStrain | Self::Quality => "",
-        }
+        self.facts()[2]
     }
 
     /// The fields that a body has.
@@ -91,16 +88,13 @@ impl FromStr for ElementField {
 fn radius_to_edge(simulation: &dyn Simulation) -> Vec<f64> {
     let q = simulation.positions();
     let x = |node: usize| -> Vector3<f64> { q.fixed_rows::<3>(3 * node).into_owned() };
-    match &simulation.shape().mesh {
-        BodyMesh::Solid(mesh) => mesh.elements.iter().map(|nodes| tetrahedron_radius_to_edge(nodes.map(x))).collect(),
-        BodyMesh::Flat { triangles, .. } => {
-            triangles.elements.iter().map(|nodes| triangle_radius_to_edge(nodes.map(x))).collect()
-        }
-        BodyMesh::Quadratic { triangles, .. } => {
-            let of_corners = |&[a, b, c, ..]: &[usize; 6]| triangle_radius_to_edge([a, b, c].map(x));
-            triangles.elements.iter().map(of_corners).collect()
-        }
-    }
+    let of_corners = |corners: &[usize]| match *corners {
+        [a, b, c] => triangle_radius_to_edge([a, b, c].map(x)),
+        [a, b, c, d] => tetrahedron_radius_to_edge([a, b, c, d].map(x)),
+        _ => f64::NAN,
+    };
+    let mesh = &simulation.shape().mesh;
+    (0..mesh.elements()).map(|element| of_corners(mesh.corners_of(element))).collect()
 }
 
 #[cfg(test)]

@@ -55,11 +55,7 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
     if let Some(flow) = &flow {
         cell.push(Field { name: "plastic_strain", components: 1, values: &flow.strains });
     }
-    match &shape.mesh {
-        BodyMesh::Solid(mesh) => write_vtu(path, mesh, &point, &cell),
-        BodyMesh::Flat { triangles, .. } => write_vtu(path, triangles, &point, &cell),
-        BodyMesh::Quadratic { triangles, .. } => write_vtu(path, triangles, &point, &cell),
-    }
+    write_vtu(path, shape.mesh.grid(), &point, &cell)
 }
 
 /// Von Mises stress √(3/2 s:s) of a Cauchy stress with the deviator s, Pa.
@@ -93,7 +89,7 @@ pub(super) fn averages_at_nodes(mesh: &BodyMesh, values: &[Matrix3<f64>]) -> Vec
     sums.into_iter().map(|(sum, volume)| sum / volume).collect()
 }
 
-/// G = F − 1 of each element, from the displacements `u  (3n)`, m; of a quadratic triangle, the mean.
+/// G = F − 1 of each element, from the displacements `u  (3n)`, m: the mean over it.
 fn displacement_gradients(mesh: &BodyMesh, u: &[f64]) -> Vec<Matrix3<f64>> {
     let of_node = |node: usize| Vector3::from_column_slice(&u[3 * node..3 * node + 3]);
     (0..mesh.elements()).map(|element| mesh.displacement_gradient(element, of_node)).collect()

@@ -66,7 +66,7 @@ impl<'a> Part<'a> {
         let mut around = vec![Vec::new(); mesh.vertices().len()];
         let mut sides = Vec::new();
         for &element in elements {
-            let corners = corners(mesh, element);
+            let corners = mesh.corners_of(element);
             for (place, &corner) in corners.iter().enumerate() {
                 around[corner].push(element);
                 let mut side: Vec<usize> = corners.iter().copied().filter(|&other| other != corner).collect();
@@ -88,7 +88,7 @@ impl<'a> Part<'a> {
         if elements.is_empty() || self.is_outer[corner] { None } else { self.fit(corner, elements) }
     }
 
-    /// The polynomial of degree 2 for quadratic elements and 1 for others; `None` if the points do not determine it.
+    /// The polynomial of the degree of the displacements; `None` if the points do not determine it.
     fn fit(&self, corner: usize, elements: &[usize]) -> Option<Fit> {
         let centre = self.mesh.vertices()[corner];
         let points: Vec<(Vector3<f64>, usize)> = elements.iter().flat_map(|&element| self.points(element)).collect();
@@ -123,12 +123,16 @@ impl<'a> Part<'a> {
 
     /// The terms of a polynomial at a point.
     fn terms(&self, point: &Vector3<f64>) -> Vec<f64> {
-        let [x, y, z] = (*point).into();
-        match self.mesh {
-            BodyMesh::Solid(_) => vec![1.0, x, y, z],
-            BodyMesh::Flat { .. } => vec![1.0, x, y],
-            BodyMesh::Quadratic { .. } => vec![1.0, x, y, x * x, x * y, y * y],
+        let x = &point.as_slice()[..self.mesh.dimension()];
+        let mut terms = vec![1.0];
+        // Those of each degree, by the last factor that made them.
+        let mut last: Vec<(usize, f64)> = vec![(0, 1.0)];
+        for _ in 0..self.mesh.element().order {
+            let times = |&(first, term): &(usize, f64)| (first..x.len()).map(move |i| (i, term * x[i]));
+            last = last.iter().flat_map(times).collect();
+            terms.extend(last.iter().map(|(_, term)| term));
         }
+        terms
     }
 
     fn value(&self, fit: &Fit, x: &Vector3<f64>) -> Matrix3<f64> {
@@ -179,7 +183,8 @@ impl<'a> Part<'a> {
     /// The corners of the elements around some corners, ascending.
     fn neighbours(&self, of: &[usize]) -> Vec<usize> {
         let elements = self.elements_around(of);
-        let mut nodes: Vec<usize> = elements.iter().flat_map(|&element| corners(self.mesh, element)).copied().collect();
+        let mut nodes: Vec<usize> =
+            elements.iter().flat_map(|&element| self.mesh.corners_of(element)).copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
         nodes
@@ -187,28 +192,15 @@ impl<'a> Part<'a> {
 
     /// Adds the stresses at the middles of sides, each the mean of what the patches of the two ends give there.
     fn add_middles(&self, elements: &[usize], fits: &[Option<Fit>], sums: &mut [(Matrix3<f64>, f64)]) {
-        if !matches!(self.mesh, BodyMesh::Quadratic { .. }) {
-            return;
-        }
         let mut is_done = vec![false; sums.len()];
-        for &element in elements {
-            let nodes = self.mesh.nodes_of(element);
-            for (place, ends) in [[0, 1], [1, 2], [2, 0]].into_iter().enumerate() {
-                let middle = nodes[3 + place];
-                if !std::mem::replace(&mut is_done[middle], true) {
-                    let x = &self.mesh.vertices()[middle];
-                    sums[middle].0 += 0.5 * (self.at(nodes[ends[0]], x, fits) + self.at(nodes[ends[1]], x, fits));
-                    sums[middle].1 += 1.0;
-                }
+        for ([a, b], middle) in elements.iter().flat_map(|&element| self.mesh.middles_of(element)) {
+            if !std::mem::replace(&mut is_done[middle], true) {
+                let x = &self.mesh.vertices()[middle];
+                sums[middle].0 += 0.5 * (self.at(a, x, fits) + self.at(b, x, fits));
+                sums[middle].1 += 1.0;
             }
         }
     }
-}
-
-/// The nodes at the corners of an element.
-fn corners(mesh: &BodyMesh, element: usize) -> &[usize] {
-    let nodes = mesh.nodes_of(element);
-    if mesh.is_flat() { &nodes[..3] } else { nodes }
 }
 
 fn entries(stress: &Matrix3<f64>) -> Entries {

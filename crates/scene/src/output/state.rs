@@ -30,39 +30,20 @@ struct StateFile {
 
 /// A state file from which a run cannot go on.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum ResumeError {
     /// It cannot be read.
     #[error("{}: cannot be read: {error}; check the path and that you may read it", file.display())]
-    Unreadable {
-        /// The state file.
-        file: PathBuf,
-        /// The error of the operating system.
-        error: io::Error,
-    },
+    Unreadable { file: PathBuf, error: io::Error },
     /// It is no state file, or one of an earlier version.
     #[error("{}: {error}; give a file that --state or --checkpoint of this version has written", file.display())]
-    Malformed {
-        /// The state file.
-        file: PathBuf,
-        /// The problem with its line and column.
-        error: serde_json::Error,
-    },
+    Malformed { file: PathBuf, error: serde_json::Error },
     /// It belongs to another scene.
     #[error("{}: is a state of another scene: {difference}; resume with the scene and the options of the first run", file.display())]
-    OtherScene {
-        /// The state file.
-        file: PathBuf,
-        /// The keys that differ, with both values.
-        difference: String,
-    },
+    OtherScene { file: PathBuf, difference: String },
     /// Its numbers do not fit the simulation.
     #[error("{}: {problem}; give a file that --state or --checkpoint of this scene has written", file.display())]
-    Unfit {
-        /// The state file.
-        file: PathBuf,
-        /// The numbers that do not fit.
-        problem: String,
-    },
+    Unfit { file: PathBuf, problem: String },
 }
 
 /// Writes `{"time", "q", "qdot"}` of all nodes with 17 significant digits, enough for an exact round trip, and what [`resume`] needs.

@@ -81,9 +81,8 @@ pub struct RotationTable {
 impl FixedTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set, &self.nodes);
         selectors.extend(self.plane.as_ref().map(Plane::selector));
-        selectors.extend(self.nodes.clone().map(Selector::Nodes));
         selectors
     }
 }
@@ -91,9 +90,7 @@ impl FixedTable {
 impl PrescribedTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
-        selectors.extend(self.nodes.clone().map(Selector::Nodes));
-        selectors
+        of_keys(&self.on, &self.cuboid, &self.sphere, &self.set, &self.nodes)
     }
 
     /// Returns true for each of x, y and z that is prescribed.

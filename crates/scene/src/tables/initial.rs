@@ -53,8 +53,6 @@ pub struct AngularVelocityTable {
 impl InitialVelocityTable {
     /// The selectors that the table gives; at most one in a checked scene, and all nodes without one.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
-        selectors.extend(self.nodes.clone().map(Selector::Nodes));
-        selectors
+        of_keys(&self.on, &self.cuboid, &self.sphere, &self.set, &self.nodes)
     }
 }

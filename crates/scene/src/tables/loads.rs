@@ -64,7 +64,7 @@ pub struct TractionTable {
 impl TractionTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set, &None);
         selectors.extend(self.faces.clone().map(Selector::Faces));
         selectors.extend(self.edges.clone().map(Selector::Edges));
         selectors
@@ -100,9 +100,8 @@ pub struct ForceTable {
 impl ForceTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set, &self.nodes);
         selectors.extend(self.plane.as_ref().map(Plane::selector));
-        selectors.extend(self.nodes.clone().map(Selector::Nodes));
         selectors
     }
 }

@@ -68,7 +68,7 @@ fem_model::law_parameters! { material }
 impl MaterialsTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        of_keys(&self.on, &self.cuboid, &self.sphere, &self.set)
+        of_keys(&self.on, &self.cuboid, &self.sphere, &self.set, &None)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The tables of the numerical method: time steps, load steps, Newton's method, the linear solver, damping.
 
 use fem_model::{DampingForm, Integrator, Precision, Preconditioner, Projection, SolverKind};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `[time]`: the time integration method and its steps.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -41,7 +41,7 @@ impl TimeTable {
 }
 
 /// `[newton]`: Newton's method of `implicit_euler`, of the implicit methods of second order, and of `static`. Engine only.
-#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct NewtonTable {
     /// Largest number of iterations in a step, at least 1. Default: 200; 2000 with `static`.
@@ -51,7 +51,7 @@ pub struct NewtonTable {
     /// Projection of element stiffnesses to positive semi-definite ones. Default: `"when_needed"`.
     pub projection: Option<Projection>,
     /// True if a run ends with exit code 0 although Newton's method has not converged in some of its steps.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub accept_unconverged: bool,
 }
 
@@ -66,7 +66,7 @@ pub struct EnergyTable {
 }
 
 /// `[iterations]`: the iterations of the integrators `pbd`, `xpbd`, `vbd` and `projective_dynamics`. Engine only.
-#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct IterationsTable {
     /// Number of sweeps, or of local–global rounds, in a step, 1 to 1 000 000. Default: 20.
@@ -81,7 +81,7 @@ pub struct IterationsTable {
     /// cheaper and converge elsewhere. Default: `true`.
     pub residual: Option<bool>,
     /// True if a run ends with exit code 0 although the iterations of some of its steps have not settled.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub accept_unconverged: bool,
 }
 
@@ -89,7 +89,7 @@ pub struct IterationsTable {
 ///
 /// Without the table the engine takes `cholesky` up to 2000 nodes (`static`: 5000), and beyond them `pcg` with `ssor` (`static`:
 /// `multigrid`).
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SolverTable {
     /// Linear solver.

@@ -34,93 +34,109 @@ use serde::Deserialize;
 
 use crate::overrides::Override;
 use fem_mesh::{Pattern, Side};
+use fem_model::ForceFields;
 
-/// A scene file, checked. Tables and keys have the names of the file, quantities are in SI units.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Scene {
-    /// Name of the file without folder and extension.
-    #[serde(skip)]
-    pub name: String,
-    /// The file.
-    #[serde(skip)]
-    pub path: PathBuf,
-    /// The text of the file.
-    #[serde(skip)]
-    pub text: Text,
-    /// The keys and values as the file and the overrides give them.
-    #[serde(skip)]
-    pub source: toml::Table,
-    /// The overrides.
-    #[serde(skip)]
-    pub overrides: Vec<Override>,
-    /// One line about the scene.
-    #[serde(default)]
-    pub about: String,
-    /// The implementation that simulates the scene.
-    pub pipeline: Pipeline,
-    /// `[mesh]`
-    pub mesh: MeshTable,
-    /// `[material]`
-    pub material: MaterialTable,
-    /// `[[materials]]`
-    #[serde(default)]
-    pub materials: Vec<MaterialsTable>,
-    /// `[plasticity]`
-    pub plasticity: Option<PlasticityTable>,
-    /// `[mass]`
-    #[serde(default)]
-    pub mass: MassTable,
-    /// `[gravity]`
-    pub gravity: Option<GravityTable>,
-    /// `[body_force]`
-    pub body_force: Option<BodyForceTable>,
-    /// `[[traction]]`
-    #[serde(default)]
-    pub traction: Vec<TractionTable>,
-    /// `[[force]]`
-    #[serde(default)]
-    pub force: Vec<ForceTable>,
-    /// `[[springs]]`
-    #[serde(default)]
-    pub springs: Vec<SpringTable>,
-    /// `[fixed]`
-    pub fixed: Option<FixedTable>,
-    /// `[[prescribed]]`
-    #[serde(default)]
-    pub prescribed: Vec<PrescribedTable>,
-    /// `[[initial_velocity]]`
-    #[serde(default)]
-    pub initial_velocity: Vec<InitialVelocityTable>,
-    /// `[[planes]]`
-    #[serde(default)]
-    pub planes: Vec<PlaneTable>,
-    /// `[contact]`
-    pub contact: Option<ContactTable>,
-    /// `[time]`
-    pub time: TimeTable,
-    /// `[damping]`
-    pub damping: Option<DampingTable>,
-    /// `[static]`
-    #[serde(rename = "static")]
-    pub statics: Option<StaticTable>,
-    /// `[newmark]`
-    pub newmark: Option<NewmarkTable>,
-    /// `[generalized_alpha]`
-    pub generalized_alpha: Option<GeneralizedAlphaTable>,
-    /// `[iterations]`
-    pub iterations: Option<IterationsTable>,
-    /// `[newton]`
-    pub newton: Option<NewtonTable>,
-    /// `[solver]`
-    pub solver: Option<SolverTable>,
-    /// `[energy]`
-    pub energy: Option<EnergyTable>,
-    /// `[drag]`
-    pub drag: Option<DragTable>,
-    /// `[batch]`
-    pub batch: Option<BatchTable>,
+/// The struct of all tables, with those of the force fields.
+macro_rules! scene {
+    ($($(#[$doc:meta])* $table:ident: $Field:ident,)*) => {
+        /// A scene file, checked. Tables and keys have the names of the file, quantities are in SI units.
+        #[derive(Clone, Debug, Deserialize, PartialEq)]
+        #[serde(deny_unknown_fields)]
+        pub struct Scene {
+            /// Name of the file without folder and extension.
+            #[serde(skip)]
+            pub name: String,
+            /// The file.
+            #[serde(skip)]
+            pub path: PathBuf,
+            /// The text of the file.
+            #[serde(skip)]
+            pub text: Text,
+            /// The keys and values as the file and the overrides give them.
+            #[serde(skip)]
+            pub source: toml::Table,
+            /// The overrides.
+            #[serde(skip)]
+            pub overrides: Vec<Override>,
+            /// One line about the scene.
+            #[serde(default)]
+            pub about: String,
+            /// The implementation that simulates the scene.
+            pub pipeline: Pipeline,
+            /// `[mesh]`
+            pub mesh: MeshTable,
+            /// `[material]`
+            pub material: MaterialTable,
+            /// `[[materials]]`
+            #[serde(default)]
+            pub materials: Vec<MaterialsTable>,
+            /// `[plasticity]`
+            pub plasticity: Option<PlasticityTable>,
+            /// `[mass]`
+            #[serde(default)]
+            pub mass: MassTable,
+            /// `[gravity]`
+            pub gravity: Option<GravityTable>,
+            /// `[body_force]`
+            pub body_force: Option<BodyForceTable>,
+            /// `[[traction]]`
+            #[serde(default)]
+            pub traction: Vec<TractionTable>,
+            /// `[[force]]`
+            #[serde(default)]
+            pub force: Vec<ForceTable>,
+            $($(#[$doc])* pub $table: Option<fem_model::$Field>,)*
+            /// `[[springs]]`
+            #[serde(default)]
+            pub springs: Vec<SpringTable>,
+            /// `[fixed]`
+            pub fixed: Option<FixedTable>,
+            /// `[[prescribed]]`
+            #[serde(default)]
+            pub prescribed: Vec<PrescribedTable>,
+            /// `[[initial_velocity]]`
+            #[serde(default)]
+            pub initial_velocity: Vec<InitialVelocityTable>,
+            /// `[[planes]]`
+            #[serde(default)]
+            pub planes: Vec<PlaneTable>,
+            /// `[contact]`
+            pub contact: Option<ContactTable>,
+            /// `[time]`
+            pub time: TimeTable,
+            /// `[damping]`
+            pub damping: Option<DampingTable>,
+            /// `[static]`
+            #[serde(rename = "static")]
+            pub statics: Option<StaticTable>,
+            /// `[newmark]`
+            pub newmark: Option<NewmarkTable>,
+            /// `[generalized_alpha]`
+            pub generalized_alpha: Option<GeneralizedAlphaTable>,
+            /// `[iterations]`
+            pub iterations: Option<IterationsTable>,
+            /// `[newton]`
+            pub newton: Option<NewtonTable>,
+            /// `[solver]`
+            pub solver: Option<SolverTable>,
+            /// `[energy]`
+            pub energy: Option<EnergyTable>,
+            /// `[drag]`
+            pub drag: Option<DragTable>,
+            /// `[batch]`
+            pub batch: Option<BatchTable>,
+        }
+
+        impl Scene {
+            /// The force fields.
+            pub fn fields(&self) -> ForceFields {
+                ForceFields { $($table: self.$table.iter().cloned().collect()),* }
+            }
+        }
+    };
 }
+
+fem_model::force_fields! { scene }
 
 /// The text of a scene's file, in which problems have their lines. Any two are equal: scenes are compared by their values.
 #[derive(Clone, Debug, Default)]

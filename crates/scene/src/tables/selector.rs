@@ -8,12 +8,13 @@ use serde::de::{Deserializer, Error, MapAccess, Unexpected, Visitor};
 use super::Side;
 use super::vectors::three_numbers;
 
-/// The selectors among the keys that every table with selectors has.
+/// The selectors among the keys that tables with selectors have in common.
 pub(super) fn of_keys(
     on: &Option<On>,
     cuboid: &Option<BoxTable>,
     sphere: &Option<SphereTable>,
     set: &Option<String>,
+    nodes: &Option<Vec<usize>>,
 ) -> Vec<Selector> {
     let on = on.as_ref().map(|on| match *on {
         On::All => Region::All,
@@ -22,7 +23,7 @@ pub(super) fn of_keys(
     let cuboid = cuboid.as_ref().map(|&BoxTable { min, max }| Region::Box { min, max });
     let sphere = sphere.as_ref().map(|&SphereTable { center, radius }| Region::Sphere { center, radius });
     let regions = [on, cuboid, sphere].into_iter().flatten().map(Selector::Region);
-    regions.chain(set.clone().map(Selector::Set)).collect()
+    regions.chain(set.clone().map(Selector::Set)).chain(nodes.clone().map(Selector::Nodes)).collect()
 }
 
 impl Plane {

@@ -39,9 +39,7 @@ impl Scene {
             ..default
         }
     }
-}
 
-impl Scene {
     /// Returns true if the mass matrix of a body with so many nodes is lumped: as the scene says, or by the method's default.
     pub fn lumps_mass(&self, nodes: usize) -> bool {
         let by_default = self.time.integrator.lumps_mass(nodes, !self.planes.is_empty());

@@ -95,8 +95,8 @@ fn go_on(found: Result<Scene, SceneError>) {
     };
     scene.mesh.refine = scene.mesh.refine.min(1);
     let triangles = rectangle_mesh([2.0, 1.0], 2, Pattern::Alternating).unwrap();
-    let flat = BodyMesh::Flat { triangles, thickness: 1.0 };
-    for mesh in [BodyMesh::Solid(solid()), flat] {
+    let flat = BodyMesh::flat(triangles, 1.0);
+    for mesh in [BodyMesh::solid(solid()), flat] {
         match body_of(&scene, mesh, Path::new("no data")) {
             Ok(body) => {
                 let vertices = body.shape.mesh.vertices();

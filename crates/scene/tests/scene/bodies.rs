@@ -12,7 +12,7 @@ use crate::{LEAST, body, edit};
 fn a_body_has_its_mesh_its_boundary_and_only_the_parts_of_its_scene() {
     let body = body(LEAST).unwrap();
     assert_eq!((body.shape.mesh.vertices().len(), body.shape.mesh.elements()), (12, 12));
-    assert_eq!(body.shape.boundary, boundary(body.shape.mesh.solid().unwrap()));
+    assert_eq!(body.shape.boundary, boundary(&body.shape.mesh.mesh().unwrap()));
     assert_eq!((body.fixed_nodes(), body.drag, &body.shape.display), (None, None, &None));
 }
 
@@ -127,11 +127,11 @@ fn a_picture_becomes_a_flat_body_with_its_holes_and_its_height() {
     let text = edit(LEAST, "box = { size = [2, 1, 1], cells_per_unit = 1 }", source);
     let scene = fem_scene::parse(&text, "a.toml".as_ref()).unwrap();
     let mesh = fem_scene::body(&scene, &data).unwrap().shape.mesh;
-    assert!(mesh.is_flat());
+    assert_eq!(mesh.dimension(), 2);
     let height = mesh.vertices().iter().map(|x| x.y).fold(0.0, f64::max);
     assert!((height - 2.0).abs() < 0.02, "{height}");
     // V - E + T of a ring is 0.
-    let edges = (3 * mesh.elements() + mesh.outline().len()) / 2;
+    let edges = (3 * mesh.elements() + mesh.faces().len()) / 2;
     assert_eq!(mesh.vertices().len() + mesh.elements(), edges);
 
     let missing = text.replace("donut", "no-such");

@@ -119,7 +119,7 @@ fn vectors_have_three_numbers() {
 fn the_error_of_a_mesh_names_the_scene_s_line_and_field_and_the_mesh_s_own_error() {
     let error = body(&edit(LEAST, "[2, 1, 1]", "[2, 1, 0.3]")).unwrap_err();
     assert!(matches!(&error, SceneError::Mesh { line: 3, field: "mesh.box", .. }), "{error:?}");
-    assert!(error.to_string().starts_with("folder/name.toml, line 3: mesh.box: box: the size 0.3 m"), "{error}");
+    assert!(error.to_string().starts_with("folder/name.toml, line 3: mesh.box: the size 0.3 m"), "{error}");
 }
 
 #[test]

@@ -109,6 +109,7 @@ fn every_name_of_the_format_is_known() {
         "newmark",
         "generalized_alpha",
         "bdf2",
+        "bathe",
         "pbd",
         "xpbd",
         "vbd",

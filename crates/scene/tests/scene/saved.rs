@@ -1,6 +1,6 @@
 //! Saved scenes: the text of a scene reads back to the same scene, and its file finds the same meshes.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fem_model::Integrator;
 use fem_scene::{Override, Scene, body, load, names, parse, save};
@@ -19,7 +19,16 @@ fn changed(scene: &Scene, changes: &[&str]) -> Scene {
 fn assert_reads_back(scene: &Scene) {
     let text = scene.to_text();
     let again = parse(&text, &scene.path).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    assert!(again.has_same_tables(scene), "{}:\n{text}", scene.name);
+    assert!(has_same_tables(&again, scene), "{}:\n{text}", scene.name);
+}
+
+/// Returns true if all tables and keys are the same, whatever the file and the overrides that gave them.
+fn has_same_tables(a: &Scene, b: &Scene) -> bool {
+    let bare = |scene: &Scene| {
+        let scene = scene.clone();
+        Scene { name: String::new(), path: PathBuf::new(), source: toml::Table::new(), overrides: Vec::new(), ..scene }
+    };
+    bare(a) == bare(b)
 }
 
 #[test]
@@ -66,7 +75,7 @@ fn a_table_or_an_entry_can_be_removed_and_one_that_is_not_there_stays_away() {
     let scene = read(&format!("{LEAST}[fixed]\nnodes = [3]\n[[springs]]\nnodes = [0, 1]\nstiffness = 1\n"));
     let without = changed(&scene, &["-fixed", "-springs.0", "-springs.7", "-solver.kind", "-traction.0.pressure"]);
     assert!(without.fixed.is_none() && without.springs.is_empty() && without.solver.is_none());
-    assert!(without.has_same_tables(&read(LEAST)));
+    assert!(has_same_tables(&without, &read(LEAST)));
     assert_reads_back(&without);
 }
 
@@ -101,7 +110,7 @@ fn a_saved_scene_finds_the_files_that_lie_beside_the_old_one() {
     assert_ne!(again.mesh, scene.mesh, "the path is absolute");
     let beside = old.path().join("again.toml");
     save(&scene, &beside, &data()).unwrap();
-    assert!(load(beside.to_str().unwrap(), &data()).unwrap().has_same_tables(&scene));
+    assert!(has_same_tables(&load(beside.to_str().unwrap(), &data()).unwrap(), &scene));
     let shipped = parse(&flat("pictures/square.png"), &data().join("scenes/square.toml")).unwrap();
     save(&shipped, &new.path().join("square.toml"), &data()).unwrap();
     let text = std::fs::read_to_string(new.path().join("square.toml")).unwrap();

@@ -68,7 +68,7 @@ fn an_indefinite_matrix_and_numbers_that_are_none_are_reported() {
         let mut system = system();
         system.values.iter_mut().flatten().flatten().for_each(|value| *value *= factor);
         for method in [Method::SteepestDescent, Method::ConjugateDirections, Method::Gradients(None)] {
-            assert_eq!(system.iterates(method, 1e-10).1, Some(breakdown.clone()), "{method:?}");
+            assert_eq!(system.iterates(method, 1e-10).1, Some(breakdown), "{method:?}");
         }
         assert!(system.iterates(Method::IncompleteCholesky, 1e-10).1.is_some());
     }

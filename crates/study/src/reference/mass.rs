@@ -1,5 +1,6 @@
 //! The inverse mass matrix of the reference, factorised exactly.
 
+use fem_engine::elements::shares::lumped_mass_shares;
 use fem_engine::simulator::double::System;
 use fem_model::{Body, BodyMesh};
 
@@ -91,12 +92,12 @@ fn mass(density: &Density, system: &System, nodes: &[usize]) -> Vec<Vec<(usize, 
             None => columns[column].push((row, mass)),
         }
     };
-    let shares = shares(mesh);
+    let (shares, lumped) = (shares(mesh), lumped_mass_shares(mesh.element()));
     for (number, (corners, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
         let mass = density.of_material * density.factors.get(number).copied().unwrap_or(1.0) * volume;
         for (a, &row) in corners.iter().enumerate() {
             if density.is_lumped {
-                add(place[row], place[row], mass * mesh.lumped_mass_shares()[a]);
+                add(place[row], place[row], mass * lumped[a]);
                 continue;
             }
             for (b, &column) in corners.iter().enumerate() {

@@ -19,7 +19,7 @@ use crate::machine::Machine;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
 use crate::runs::row::Row;
 use crate::runs::table;
-use crate::space::locking;
+use crate::space::{locking, manufactured};
 use crate::studies::scene::{self, Question, SceneStudy};
 use crate::studies::space::{self, SpaceOrders, SpaceStudy};
 use crate::studies::{Settings, make_folders};
@@ -87,10 +87,10 @@ impl Report {
     /// Observed orders in time and in space.
     pub fn observed(&self) -> Vec<Observed> {
         let mut observed = orders_in_time(&self.orders);
-        for SpaceOrders { scene, family, observed: orders } in &self.space.orders {
-            let expected = family.orders();
+        for SpaceOrders { scene, element, observed: orders } in &self.space.orders {
+            let expected = manufactured::orders(element);
             for (norm, of) in ["h in L2", "h in H1"].into_iter().enumerate() {
-                let (scene, method) = (scene.clone(), family.name().to_owned());
+                let (scene, method) = (scene.clone(), manufactured::label(element));
                 observed.push(Observed { scene, method, of, order: orders[norm], expected: expected[norm] });
             }
         }

@@ -40,7 +40,7 @@ pub fn in_space(space: &SpaceStudy) -> Picture {
 pub fn time_in_plane(space: &SpaceStudy) -> Picture {
     let label = "manufactured solution in the plane: error against run time";
     let mut chart = Chart::new(label, Axis::log("wall-clock time (s)"), Axis::log("relative error in H1"));
-    let flat = space.orders.iter().filter(|orders| orders.family.dimensions() == 2);
+    let flat = space.orders.iter().filter(|orders| orders.element.dimension == 2);
     for (place, orders) in flat.enumerate() {
         let rows = space.rows.iter().filter(|row| row.config.scene == orders.scene);
         let dot = |row: &Row| {

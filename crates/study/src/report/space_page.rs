@@ -7,6 +7,7 @@ use super::text::number;
 use super::{Report, charts, orders_in_time, space_charts};
 use crate::runs::convergence_order::ConvergenceOrder;
 use crate::space::locking::RATIOS;
+use crate::space::manufactured;
 use crate::studies::space::{SpaceOrders, SpaceStudy};
 
 /// Convergence orders in time on the small body.
@@ -40,8 +41,8 @@ fn text(order: Option<ConvergenceOrder>) -> String {
 pub(super) fn space(study: &SpaceStudy) -> Markup {
     let row = |orders: &SpaceOrders| {
         let [l2, h1] = orders.observed.map(text);
-        let [in_l2, in_h1] = orders.family.orders();
-        vec![orders.scene.clone(), orders.family.name().to_owned(), l2, h1, format!("{in_l2} and {in_h1}")]
+        let [in_l2, in_h1] = manufactured::orders(orders.element);
+        vec![orders.scene.clone(), manufactured::label(orders.element), l2, h1, format!("{in_l2} and {in_h1}")]
     };
     let rows: Vec<_> = study.orders.iter().map(row).collect();
     html! {

@@ -219,7 +219,7 @@ const SOLVERS: [(SolverKind, Option<Preconditioner>); 6] = [
 ];
 
 /// Numbers of steps in the horizon at which each integrator is in its asymptotic range.
-const FIRST: [(Integrator, usize); 11] = [
+const FIRST: [(Integrator, usize); 12] = [
     (Integrator::ExplicitEuler, 400),
     (Integrator::SemiImplicitEuler, 400),
     (Integrator::LinearlyImplicitEuler, 400),
@@ -231,6 +231,7 @@ const FIRST: [(Integrator, usize); 11] = [
     (Integrator::Newmark, 100),
     (Integrator::GeneralizedAlpha, 100),
     (Integrator::Bdf2, 100),
+    (Integrator::Bathe, 100),
 ];
 
 /// Ladders in the asymptotic range of each integrator.

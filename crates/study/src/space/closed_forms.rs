@@ -34,7 +34,11 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
     let is_uniform = scene.materials.is_empty();
     let is_static = scene.time.integrator == Integrator::Static;
     let is_without_weight = scene.gravity.is_none() && scene.body_force.is_none();
-    let is_alone = is_without_weight && scene.force.is_empty() && scene.springs.is_empty() && scene.drag.is_none();
+    let is_alone = is_without_weight
+        && scene.fields().tables().next().is_none()
+        && scene.force.is_empty()
+        && scene.springs.is_empty()
+        && scene.drag.is_none();
     let [traction] = &scene.traction[..] else { return None };
     let on = traction.on.as_ref().and_then(On::side).filter(|on| on.axis == Axis::X && on.side == Side::Max)?;
     let [load, 0.0, 0.0] = traction.force_per_area? else { return None };

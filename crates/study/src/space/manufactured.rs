@@ -9,13 +9,13 @@ use std::path::Path;
 
 use nalgebra::{DVector, Vector3};
 
-use crate::space::points::{LocalGradient, points};
+use crate::space::points::points;
 use fem_engine::forces::dead_load::DeadLoad;
 use fem_engine::materials::AnyLaw;
 use fem_engine::numbering::Numbering;
 use fem_engine::simulator::{Simulator, double};
-use fem_engine::tensor::{Tensor, from_fn, inverse};
-use fem_mesh::TetrahedralMesh;
+use fem_engine::tensor::{Tensor, from_fn};
+use fem_model::element::Element;
 use fem_model::simulation::{Counters, Simulation};
 use fem_model::{Body, BodyMesh};
 use fem_scene::tables::FixedTable;
@@ -24,35 +24,23 @@ use fem_scene::{Scene, body, parse};
 /// a, m: large enough that the neo-Hookean law is far from linear. The third belongs to the cube.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
 
-/// The elements of the discrete solution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    /// Linear tetrahedra in the cube.
-    Tetrahedra,
-    /// Linear triangles in the square, in plane strain.
-    Triangles,
-    /// Quadratic triangles in the square, in plane strain.
-    QuadraticTriangles,
+/// Orders of elements in L2 and H1: Strang and Fix, An Analysis of the Finite Element Method (1973), chapter 3.
+pub fn orders(element: &Element) -> [f64; 2] {
+    [element.order + 1, element.order].map(|order| order as f64)
 }
 
-impl Family {
-    /// Number of coordinates on which the solution depends.
-    pub fn dimensions(self) -> usize {
-        if self == Self::Tetrahedra { 3 } else { 2 }
-    }
+/// The elements in the plural, such as `linear triangles`.
+pub fn label(element: &Element) -> String {
+    if element.order == 1 { format!("linear {}", element.name) } else { element.name.to_owned() }
+}
 
-    /// Orders in L2 and H1: Strang and Fix, An Analysis of the Finite Element Method (1973), chapter 3.
-    pub fn orders(self) -> [f64; 2] {
-        if self == Self::QuadraticTriangles { [3.0, 2.0] } else { [2.0, 1.0] }
-    }
-
-    /// The elements in the plural.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tetrahedra => "linear tetrahedra",
-            Self::Triangles => "linear triangles",
-            Self::QuadraticTriangles => "quadratic triangles",
-        }
+/// The end of a scene's name that tells its elements; empty for linear tetrahedra.
+pub fn ending(element: &Element) -> &'static str {
+    match (element.dimension, element.order) {
+        (2, 1) => "-triangles",
+        (2, _) => "-quadratic",
+        (_, 1) => "",
+        _ => "-quadratic-solid",
     }
 }
 
@@ -138,9 +126,9 @@ impl Exact {
 }
 
 /// Solves on a mesh of `cells` cells in each direction.
-pub fn solve(model: &str, family: Family, cells: usize) -> Result<Solved, String> {
-    let (scene, body) = fixed_body(model, family, cells)?;
-    let exact = Exact { dimensions: family.dimensions() };
+pub fn solve(model: &str, element: &Element, cells: usize) -> Result<Solved, String> {
+    let (scene, body) = fixed_body(model, element, cells)?;
+    let exact = Exact { dimensions: element.dimension };
     let mesh = body.shape.mesh.clone();
     let lacks = "a body of springs has no stress";
     let load = nodal_load(&AnyLaw::new(&scene.material.value()).ok_or(lacks)?, &mesh, exact);
@@ -159,32 +147,23 @@ pub fn solve(model: &str, family: Family, cells: usize) -> Result<Solved, String
 }
 
 /// The unit cube or square with fixed sides.
-fn fixed_body(model: &str, family: Family, cells: usize) -> Result<(Scene, Body), String> {
+fn fixed_body(model: &str, element: &Element, cells: usize) -> Result<(Scene, Body), String> {
     let moduli = match model {
         "neo_hookean" => "model = \"neo_hookean\"\nC = 1e4\nD = 3e4",
         _ => "model = \"linear\"\nyoung = 1e5\npoisson = 0.3",
     };
-    let mesh = match family {
-        Family::Tetrahedra => format!("box = {{ size = [1, 1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}"),
-        Family::Triangles => format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}"),
-        Family::QuadraticTriangles => {
-            format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}\norder = 2")
-        }
-    };
+    let shape = if element.dimension == 3 { "box = { size = [1, 1, 1]" } else { "rectangle = { size = [1, 1]" };
+    let order = element.order;
     let text = format!(
-        "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\n{moduli}\n\
+        "pipeline = \"engine\"\n[mesh]\n{shape}, cells_per_unit = {cells}, pattern = \"kuhn\" }}\norder = {order}\n[material]\n{moduli}\n\
          density = 1000.0\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n\
          [newton]\nmax_iterations = 50\ntolerance = 1e-13\n[solver]\nkind = \"cholesky\"\n"
     );
     let law = if model == "neo_hookean" { "neo-hookean" } else { "linear" };
-    let name = match family {
-        Family::Tetrahedra => format!("manufactured-{law}"),
-        Family::Triangles => format!("manufactured-{law}-triangles"),
-        Family::QuadraticTriangles => format!("manufactured-{law}-quadratic"),
-    };
+    let name = format!("manufactured-{law}{}", ending(element));
     let mut scene = parse(&text, Path::new(&format!("{name}.toml"))).map_err(|error| error.to_string())?;
     let unconstrained = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
-    let is_inside = |x: &Vector3<f64>| (0..family.dimensions()).all(|i| x[i] > 0.0 && x[i] < 1.0);
+    let is_inside = |x: &Vector3<f64>| (0..element.dimension).all(|i| x[i] > 0.0 && x[i] < 1.0);
     let vertices = unconstrained.shape.mesh.vertices();
     let sides = (0..vertices.len()).filter(|&node| !is_inside(&vertices[node])).collect();
     scene.fixed = Some(FixedTable { nodes: Some(sides), ..FixedTable::default() });
@@ -214,17 +193,20 @@ fn errors(mesh: &BodyMesh, u: &[[f64; 3]], exact: Exact) -> (f64, f64) {
     let points = points(mesh);
     let [mut l2, mut h1, mut size, mut slope] = [0.0; 4];
     for (element, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
-        let gradient = LocalGradient::new(mesh, element, u);
         for point in &points {
             let X = point.place(mesh, nodes);
-            let (is, steep, found) = (exact.displacement(&X), exact.gradient(&X), gradient.at(point));
+            let (is, steep, found) = (
+                exact.displacement(&X),
+                exact.gradient(&X),
+                mesh.displacement_gradient_at(element, &point.barycentric, |node| u[node].into()),
+            );
             let weight = volume * point.weight;
             for i in 0..3 {
                 let here: f64 = nodes.iter().zip(&point.values).map(|(&node, value)| value * u[node][i]).sum();
                 l2 += weight * (here - is[i]).powi(2);
                 size += weight * is[i].powi(2);
                 for j in 0..3 {
-                    h1 += weight * (found[i][j] - steep[i][j]).powi(2);
+                    h1 += weight * (found[(i, j)] - steep[i][j]).powi(2);
                     slope += weight * steep[i][j].powi(2);
                 }
             }
@@ -233,28 +215,16 @@ fn errors(mesh: &BodyMesh, u: &[[f64; 3]], exact: Exact) -> (f64, f64) {
     ((l2 / size).sqrt(), (h1 / slope).sqrt())
 }
 
-/// Displacement gradient of an element.
-pub fn element_gradient(mesh: &TetrahedralMesh, element: &[usize; 4], u: &[[f64; 3]]) -> Tensor<f64> {
-    let edge = |of: &dyn Fn(usize) -> Vector3<f64>| {
-        let origin = of(element[0]);
-        nalgebra::Matrix3::from_columns(&[of(element[1]) - origin, of(element[2]) - origin, of(element[3]) - origin])
-    };
-    let (rest, moved) = (edge(&|node| mesh.vertices[node]), edge(&|node| Vector3::from(u[node])));
-    let G = moved * inverse(&rest);
-    from_fn(|i, j| G[(i, j)])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_body_force_is_minus_the_divergence_of_the_stress() {
-        for (model, family) in
-            [("linear", Family::Tetrahedra), ("neo_hookean", Family::Tetrahedra), ("neo_hookean", Family::Triangles)]
-        {
-            let law = AnyLaw::<f64>::new(&fixed_body(model, family, 1).unwrap().1.material).unwrap();
-            let exact = Exact { dimensions: family.dimensions() };
+        let all = ["linear", "neo_hookean"].into_iter().flat_map(|model| Element::ALL.map(|element| (model, element)));
+        for (model, element) in all {
+            let law = AnyLaw::<f64>::new(&fixed_body(model, element, 1).unwrap().1.material).unwrap();
+            let exact = Exact { dimensions: element.dimension };
             let X = Vector3::new(0.31, 0.62, 0.27);
             let stress = |X: &Vector3<f64>| <f64 as fem_engine::Real>::law(&law).stress(&exact.gradient(X));
             let h = 1e-5;
@@ -272,17 +242,19 @@ mod tests {
     #[test]
     fn errors_converge_under_refinement() {
         for model in ["linear", "neo_hookean"] {
-            let [coarse, fine] = [4, 8].map(|cells| solve(model, Family::Tetrahedra, cells).unwrap());
+            let tetrahedra = Element::ALL.into_iter().find(|element| element.dimension == 3).unwrap();
+            let [coarse, fine] = [4, 8].map(|cells| solve(model, tetrahedra, cells).unwrap());
             assert!(coarse.l2 / fine.l2 > 3.0 && coarse.h1 / fine.h1 > 1.75, "{} {}", coarse.l2, fine.l2);
         }
     }
 
     #[test]
     fn triangles_have_the_orders_of_their_polynomials() {
-        for (family, order) in [(Family::Triangles, 1.0), (Family::QuadraticTriangles, 2.0)] {
-            let [coarse, fine] = [8, 16].map(|cells| solve("neo_hookean", family, cells).unwrap());
-            let (l2, h1) = ((coarse.l2 / fine.l2).log2(), (coarse.h1 / fine.h1).log2());
-            assert!((l2 - order - 1.0).abs() < 0.1 && (h1 - order).abs() < 0.1, "{family:?}: {l2} {h1}");
+        for element in Element::ALL.into_iter().filter(|element| element.dimension == 2) {
+            let [coarse, fine] = [8, 16].map(|cells| solve("neo_hookean", element, cells).unwrap());
+            let [l2, h1] = [coarse.l2 / fine.l2, coarse.h1 / fine.h1].map(f64::log2);
+            let [in_l2, in_h1] = orders(element);
+            assert!((l2 - in_l2).abs() < 0.1 && (h1 - in_h1).abs() < 0.1, "{}: {l2} {h1}", element.name);
         }
     }
 }

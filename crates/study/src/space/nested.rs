@@ -2,9 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::space::manufactured::element_gradient;
 use crate::space::norms;
-use fem_mesh::{TetrahedralMesh, volumes};
 use fem_model::BodyMesh;
 
 /// The state of a box on one mesh.
@@ -13,7 +11,7 @@ pub struct Level {
     /// Cells per metre.
     pub cells: usize,
     /// The mesh.
-    pub mesh: TetrahedralMesh,
+    pub mesh: BodyMesh,
     /// Positions of all nodes, m.
     pub q: DVector<f64>,
 }
@@ -43,22 +41,21 @@ pub fn compare(levels: &[Level; 3]) -> Option<RichardsonEstimate> {
     let coarse = &levels[0].mesh;
     let on_coarse = |level: usize| -> Option<Vec<f64>> {
         let Level { mesh, q, .. } = &levels[level];
-        let mut values = Vec::with_capacity(3 * coarse.vertices.len());
-        for node in 0..coarse.vertices.len() {
+        let mut values = Vec::with_capacity(3 * coarse.vertices().len());
+        for node in 0..coarse.vertices().len() {
             let ratio = levels[level].cells / levels[0].cells;
             let fine = places[level].get(&places_of(coarse, node, levels[0].cells).map(|i| i * ratio as i64))?;
-            values.extend((0..3).map(|i| q[3 * fine + i] - mesh.vertices[*fine][i]));
+            values.extend((0..3).map(|i| q[3 * fine + i] - mesh.vertices()[*fine][i]));
         }
         Some(values)
     };
     let u = [on_coarse(0)?, on_coarse(1)?, on_coarse(2)?];
-    let body = BodyMesh::from(coarse.clone());
-    let weights = norms::weights(&body);
+    let weights = norms::weights(coarse);
     let apart = [norms::l2(&weights, &u[0], &u[1]), norms::l2(&weights, &u[1], &u[2])];
     let p = (apart[0] / apart[1]).log2();
     let factor = 2f64.powf(p.clamp(PLAUSIBLE.0, PLAUSIBLE.1)) - 1.0;
     let limit: Vec<f64> = u[2].iter().zip(&u[1]).map(|(fine, coarse)| fine + (fine - coarse) / factor).collect();
-    let length = norms::length(&body);
+    let length = norms::length(coarse);
     let slopes = [slope_apart(&levels[0], &levels[1])?, slope_apart(&levels[1], &levels[2])?];
     let p1 = (slopes[0] / slopes[1]).log2();
     let remaining = (1.0 - 4f64.powf(-p1.clamp(PLAUSIBLE.0, PLAUSIBLE.1))).sqrt();
@@ -71,11 +68,11 @@ pub fn compare(levels: &[Level; 3]) -> Option<RichardsonEstimate> {
 
 /// Nodes by their indices on the grid of a level.
 fn places(level: &Level) -> std::collections::HashMap<[i64; 3], usize> {
-    (0..level.mesh.vertices.len()).map(|node| (places_of(&level.mesh, node, level.cells), node)).collect()
+    (0..level.mesh.vertices().len()).map(|node| (places_of(&level.mesh, node, level.cells), node)).collect()
 }
 
-fn places_of(mesh: &TetrahedralMesh, node: usize, cells: usize) -> [i64; 3] {
-    mesh.vertices[node].map(|x| (x * cells as f64).round() as i64).into()
+fn places_of(mesh: &BodyMesh, node: usize, cells: usize) -> [i64; 3] {
+    mesh.vertices()[node].map(|x| (x * cells as f64).round() as i64).into()
 }
 
 /// ‖∇(u_fine − u_coarse)‖. A fine node lies at a coarse node or in the middle of a coarse edge, since all edges of the box mesh point
@@ -86,10 +83,10 @@ fn slope_apart(coarse: &Level, fine: &Level) -> Option<f64> {
     }
     let there = places(coarse);
     let displacement = |level: &Level, node: usize| -> [f64; 3] {
-        std::array::from_fn(|i| level.q[3 * node + i] - level.mesh.vertices[node][i])
+        std::array::from_fn(|i| level.q[3 * node + i] - level.mesh.vertices()[node][i])
     };
-    let mut apart = Vec::with_capacity(fine.mesh.vertices.len());
-    for node in 0..fine.mesh.vertices.len() {
+    let mut apart = Vec::with_capacity(fine.mesh.vertices().len());
+    for node in 0..fine.mesh.vertices().len() {
         let at = places_of(&fine.mesh, node, fine.cells);
         let low = displacement(coarse, *there.get(&at.map(|i| i.div_euclid(2)))?);
         let high = displacement(coarse, *there.get(&at.map(|i| (i + 1).div_euclid(2)))?);
@@ -100,23 +97,22 @@ fn slope_apart(coarse: &Level, fine: &Level) -> Option<f64> {
 }
 
 fn slope_norm(level: &Level) -> f64 {
-    let u: Vec<[f64; 3]> = (0..level.mesh.vertices.len())
-        .map(|node| std::array::from_fn(|i| level.q[3 * node + i] - level.mesh.vertices[node][i]))
+    let u: Vec<[f64; 3]> = (0..level.mesh.vertices().len())
+        .map(|node| std::array::from_fn(|i| level.q[3 * node + i] - level.mesh.vertices()[node][i]))
         .collect();
     gradient_norm(&level.mesh, &u)
 }
 
 /// √∫ |∇u|²
-fn gradient_norm(mesh: &TetrahedralMesh, u: &[[f64; 3]]) -> f64 {
-    let square =
-        |element: &[usize; 4]| element_gradient(mesh, element, u).as_flattened().iter().map(|g| g * g).sum::<f64>();
-    mesh.elements.iter().zip(volumes(mesh)).map(|(element, volume)| volume * square(element)).sum::<f64>().sqrt()
+fn gradient_norm(mesh: &BodyMesh, u: &[[f64; 3]]) -> f64 {
+    let square = |element: usize| mesh.displacement_gradient(element, |node| u[node].into()).norm_squared();
+    mesh.volumes().into_iter().enumerate().map(|(element, volume)| volume * square(element)).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::manufactured::{self, Exact, Family};
+    use crate::space::manufactured::{self, Exact};
     use fem_mesh::{Pattern, box_mesh};
 
     /// Interpolant of a known displacement, with an error of second order at the nodes.
@@ -127,7 +123,7 @@ mod tests {
             let u = Exact { dimensions: 3 }.displacement(X);
             (0..3).map(move |i| X[i] + u[i] * (1.0 + h * h)).collect::<Vec<_>>()
         });
-        Level { cells, q: DVector::from_iterator(3 * mesh.vertices.len(), q), mesh }
+        Level { cells, q: DVector::from_iterator(3 * mesh.vertices.len(), q), mesh: mesh.into() }
     }
 
     #[test]
@@ -136,7 +132,7 @@ mod tests {
         let estimate = compare(&levels).unwrap();
         assert!((estimate.orders.0 - 2.0).abs() < 1e-9, "{:?}", estimate.orders);
         assert!((estimate.orders.1 - 1.0).abs() < 0.05, "{:?}", estimate.orders);
-        for (node, X) in levels[0].mesh.vertices.iter().enumerate() {
+        for (node, X) in levels[0].mesh.vertices().iter().enumerate() {
             let exact = Exact { dimensions: 3 }.displacement(X);
             assert!((0..3).all(|i| (estimate.limit[3 * node + i] - exact[i]).abs() < 1e-12));
         }
@@ -148,7 +144,7 @@ mod tests {
         let levels = [4, 8, 16].map(level);
         let estimate = compare(&levels).unwrap();
         // An interpolant of sin πx sin πy sin πz on this mesh: integrated against the exact gradient.
-        let exact = manufactured::solve("linear", Family::Tetrahedra, 8).unwrap().h1;
+        let exact = manufactured::solve("linear", fem_model::element::Element::ALL[0], 8).unwrap().h1;
         let found = estimate.errors[1].2;
         assert!((found / exact - 1.0).abs() < 0.1, "{found} {exact}");
     }

@@ -11,7 +11,7 @@ use fem_mesh::TetrahedralMesh;
 use fem_scene::{Scene, SceneError, body, body_of, parse};
 
 /// The integrators in time.
-pub const DYNAMIC: [&str; 11] = [
+pub const DYNAMIC: [&str; 12] = [
     "explicit_euler",
     "semi_implicit_euler",
     "rk2",
@@ -23,10 +23,11 @@ pub const DYNAMIC: [&str; 11] = [
     "newmark",
     "generalized_alpha",
     "bdf2",
+    "bathe",
 ];
 
 /// The implicit integrators of second order.
-pub const SECOND_ORDER: [&str; 4] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2"];
+pub const SECOND_ORDER: [&str; 5] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2", "bathe"];
 
 /// The iterated methods.
 pub const ITERATED: [&str; 4] = ["pbd", "xpbd", "vbd", "projective_dynamics"];

@@ -6,9 +6,10 @@ use crate::runs::names;
 use crate::runs::row::{Configuration, Errors, Row, Times};
 use crate::runs::states::{Snapshot, write_reference, write_state};
 use crate::space::locking::{self, TipDeflection};
-use crate::space::manufactured::{self, Family};
+use crate::space::manufactured;
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
+use fem_model::element::Element;
 
 /// The results.
 #[derive(Clone, Debug, Default)]
@@ -27,7 +28,7 @@ pub struct SpaceOrders {
     /// Name of the scene.
     pub scene: String,
     /// The elements.
-    pub family: Family,
+    pub element: &'static Element,
     /// Observed orders in L2 and H1.
     pub observed: [Option<ConvergenceOrder>; 2],
 }
@@ -38,9 +39,9 @@ const FINEST: usize = 2;
 /// Solves on a sequence of meshes.
 pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
     let mut space = SpaceStudy::default();
-    for family in [Family::Tetrahedra, Family::Triangles, Family::QuadraticTriangles] {
+    for element in Element::ALL {
         for model in ["linear", "neo_hookean"] {
-            let orders = sequence(settings, model, family, &mut space.rows)?;
+            let orders = sequence(settings, model, element, &mut space.rows)?;
             space.orders.push(orders);
         }
     }
@@ -55,16 +56,21 @@ pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
 }
 
 /// Solves on a sequence of meshes and adds their rows.
-fn sequence(settings: &Settings, model: &str, family: Family, rows: &mut Vec<Row>) -> Result<SpaceOrders, String> {
-    let cells: &[usize] = match (family, settings.is_quick) {
+fn sequence(
+    settings: &Settings,
+    model: &str,
+    element: &'static Element,
+    rows: &mut Vec<Row>,
+) -> Result<SpaceOrders, String> {
+    let cells: &[usize] = match (element.dimension, settings.is_quick) {
         (_, true) => &[4, 8, 16],
-        (Family::Tetrahedra, false) => &[2, 4, 8, 16, 32],
+        (3, false) => &[2, 4, 8, 16, 32],
         (_, false) => &[4, 8, 16, 32, 64, 128],
     };
-    let from = rows.len();
+    let (from, name) = (rows.len(), manufactured::label(element));
     for (number, &per_unit) in cells.iter().enumerate() {
-        (settings.tell)(number, cells.len(), &format!("manufactured solution, {}, {per_unit} cells", family.name()));
-        let row = solved(settings, model, family, per_unit, rows.len())?;
+        (settings.tell)(number, cells.len(), &format!("manufactured solution, {name}, {per_unit} cells"));
+        let row = solved(settings, model, element, per_unit, rows.len())?;
         rows.push(row);
     }
     let rows = &rows[from..];
@@ -73,25 +79,21 @@ fn sequence(settings: &Settings, model: &str, family: Family, rows: &mut Vec<Row
         asymptotic(&pairs, FINEST, 0.0)
     };
     let observed = [order(|errors| errors.space_l2), order(|errors| errors.space_h1)];
-    Ok(SpaceOrders { scene: rows[0].config.scene.clone(), family, observed })
+    Ok(SpaceOrders { scene: rows[0].config.scene.clone(), element, observed })
 }
 
 /// Edge of a cell of the unit cube or square, m: six tetrahedra or two triangles fill a cell.
 pub fn spacing(row: &Row) -> f64 {
     let elements = row.config.elements as f64;
-    let is_flat = ["-triangles", "-quadratic"].iter().any(|ending| row.config.scene.ends_with(ending));
-    if is_flat { (2.0 / elements).sqrt() } else { (6.0 / elements).cbrt() }
+    let is_in_plane = ["-triangles", "-quadratic"].iter().any(|ending| row.config.scene.ends_with(ending));
+    if is_in_plane { (2.0 / elements).sqrt() } else { (6.0 / elements).cbrt() }
 }
 
-fn solved(settings: &Settings, model: &str, family: Family, cells: usize, number: usize) -> Result<Row, String> {
-    let solved = manufactured::solve(model, family, cells)?;
+fn solved(settings: &Settings, model: &str, element: &Element, cells: usize, number: usize) -> Result<Row, String> {
+    let solved = manufactured::solve(model, element, cells)?;
     let scene = &solved.scene;
     let id = format!("manufactured-{:03}", number + 1);
-    let kind = match family {
-        Family::Tetrahedra => "",
-        Family::Triangles => "-triangles",
-        Family::QuadraticTriangles => "-quadratic",
-    };
+    let kind = manufactured::ending(element);
     let state = format!("states/{id}.json");
     let reference_state = format!("states/manufactured{kind}-{cells}-reference.json");
     let qdot = nalgebra::DVector::zeros(solved.q.len());

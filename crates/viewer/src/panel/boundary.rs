@@ -1,16 +1,16 @@
 //! The section of the panel for Dirichlet conditions: the brush and the painted condition.
 
-use kiss3d::egui::{DragValue, RichText, Slider, Ui};
+use kiss3d::egui::{DragValue, Slider, Ui};
 
-use super::ViewState;
-use crate::change::Change;
-use crate::parameter_rows::label;
-use crate::request::UserRequest;
-use crate::scene_edits::{self, Motion};
+use super::request::UserRequest;
+use super::rows::label;
+use super::{ViewState, message, offer};
+use crate::editing::change::Change;
+use crate::editing::editor::SceneSetup;
+use crate::editing::edits::{self, Motion};
+use crate::picture::numbers;
 use crate::setup::brush::Target;
 use crate::setup::{Mode, Setup};
-use crate::worker::scene_editor::SceneSetup;
-use crate::{plot, theme};
 
 /// Ends of the range of the brush's radius, in radii of the body.
 const RADII: (f32, f32) = (0.005, 1.0);
@@ -18,34 +18,24 @@ const RADII: (f32, f32) = (0.005, 1.0);
 /// Lays out the section below the sliders of the scene.
 pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewState, requests: &mut Vec<UserRequest>) {
     if setup.mode != Mode::Fix {
-        ui.horizontal(|ui| {
-            ui.label(format!("fixed: {} nodes", scene.conditions.fixed().len()));
-            if ui.button("Paint nodes").clicked() {
-                requests.push(UserRequest::Choose(Mode::Fix));
-            }
-        });
-        return;
+        let text = format!("fixed: {} nodes", scene.conditions.fixed().len());
+        return offer(ui, text, "Paint nodes", Mode::Fix, requests);
     }
     let body = setup.body(state.shape);
     let (mut radius, size) = (setup.brush.radius_on(body), body.radius);
     ui.horizontal(|ui| {
         label(ui, "brush radius (m)");
         let range = RADII.0 * size..=RADII.1 * size;
-        let slider = Slider::new(&mut radius, range).logarithmic(true).custom_formatter(|r, _| plot::short(r));
+        let slider = Slider::new(&mut radius, range).logarithmic(true).custom_formatter(|r, _| numbers::short(r));
         if ui.add(slider).changed() {
             setup.brush.radius = Some(radius);
         }
     });
     ui.checkbox(&mut setup.brush.erases, "erase (Ctrl does the other thing)");
     targets(ui, scene, setup);
-    if let Target::Prescribed(number) = setup.brush.target {
-        vector(ui, scene, setup, (number, state.shape.mesh.is_flat()), requests);
-    }
+    vector(ui, scene, setup, state.shape.mesh.dimension(), requests);
     let hint = "Drag over the body: nodes of the surface in a ball of this radius. The motion starts again.";
-    ui.label(RichText::new(setup.message.as_deref().unwrap_or(hint)).size(12.0).color(match setup.message {
-        Some(_) => theme::FAILURE,
-        None => theme::SECONDARY_TEXT,
-    }));
+    message(ui, setup, hint);
 }
 
 /// The choice of the condition that is painted.
@@ -72,13 +62,8 @@ fn targets(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup) {
 }
 
 /// The three numbers of a prescribed motion.
-fn vector(
-    ui: &mut Ui,
-    scene: &SceneSetup,
-    setup: &mut Setup,
-    (number, is_flat): (usize, bool),
-    requests: &mut Vec<UserRequest>,
-) {
+fn vector(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, dimension: usize, requests: &mut Vec<UserRequest>) {
+    let Target::Prescribed(number) = setup.brush.target else { return };
     let table = scene.scene.prescribed.get(number);
     let own = table.and_then(|table| {
         let displacement = table.displacement.filter(|_| table.rotation.is_none());
@@ -96,14 +81,13 @@ fn vector(
     let mut is_changed = false;
     ui.horizontal(|ui| {
         label(ui, &format!("{name} ({unit})"));
-        let numbers = if is_flat { 2 } else { 3 };
-        for number in &mut vector[..numbers] {
+        for number in &mut vector[..dimension] {
             is_changed |= ui.add(DragValue::new(number).speed(0.01)).changed();
         }
     });
     match table {
         Some(_) if is_changed => {
-            let edit = scene_edits::prescribed_vector(number, motion, vector);
+            let edit = edits::prescribed_vector(number, motion, vector);
             requests.push(UserRequest::Change(Change::Edit(edit)));
         }
         None => setup.brush.new = Some((motion, vector)),

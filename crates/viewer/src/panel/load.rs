@@ -1,24 +1,19 @@
 //! The section of the panel for loads: picked faces and their traction.
 
-use kiss3d::egui::{DragValue, RichText, Slider, SliderClamping, Ui};
+use kiss3d::egui::{DragValue, Ui};
 
-use super::ViewState;
-use crate::parameter_rows::{label, parse};
-use crate::request::UserRequest;
+use super::request::UserRequest;
+use super::rows::{label, number_slider};
+use super::{ViewState, message, offer};
+use crate::editing::editor::SceneSetup;
+use crate::picture::numbers;
 use crate::setup::{Mode, Setup, loads};
-use crate::worker::scene_editor::SceneSetup;
-use crate::{plot, theme};
 
 /// Lays out the section below the sliders of the scene.
 pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewState, requests: &mut Vec<UserRequest>) {
     if setup.mode != Mode::Load {
-        ui.horizontal(|ui| {
-            ui.label(format!("loads on faces: {}", scene.scene.traction.len()));
-            if ui.button("Pick faces").clicked() {
-                requests.push(UserRequest::Choose(Mode::Load));
-            }
-        });
-        return;
+        let text = format!("loads on faces: {}", scene.scene.traction.len());
+        return offer(ui, text, "Pick faces", Mode::Load, requests);
     }
     ui.horizontal(|ui| {
         ui.checkbox(&mut setup.loads.grows, "the smooth part, within");
@@ -28,23 +23,20 @@ pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewStat
     if setup.loads.is_used() {
         traction(ui, scene, setup, requests);
     }
-    let kind = if state.shape.mesh.is_flat() { "an edge of the outline" } else { "a face" };
+    let kind = if state.shape.mesh.dimension() == 2 { "an edge of the outline" } else { "a face" };
     let hint = format!(
         "Click on {kind}; Ctrl adds and removes. Drag a picked one along its normal to pull or push it. Smooth parts and the normal of \
          a load that keeps its direction are those of the undeformed body."
     );
-    ui.label(RichText::new(setup.message.clone().unwrap_or(hint)).size(12.0).color(match setup.message {
-        Some(_) => theme::FAILURE,
-        None => theme::SECONDARY_TEXT,
-    }));
+    message(ui, setup, &hint);
 }
 
 /// The loads of the scene, to be picked.
 fn list(ui: &mut Ui, scene: &SceneSetup, setup: &Setup, requests: &mut Vec<UserRequest>) {
     for (number, table) in scene.scene.traction.iter().enumerate() {
         let force = match (table.pressure, table.force_per_area) {
-            (Some(pressure), _) => format!("pressure {} Pa", plot::short(pressure)),
-            (_, Some(force)) => format!("({}) Pa", force.map(plot::short).join(", ")),
+            (Some(pressure), _) => format!("pressure {} Pa", numbers::short(pressure)),
+            (_, Some(force)) => format!("({}) Pa", force.map(numbers::short).join(", ")),
             (None, None) => String::new(),
         };
         let faces = scene.conditions.loaded.get(number).map_or(0, Vec::len);
@@ -63,12 +55,7 @@ fn traction(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, requests: &mut V
     let mut is_changed = false;
     ui.horizontal(|ui| {
         label(ui, "− pushes, + pulls");
-        let slider = Slider::new(&mut loads.traction, -range..=range)
-            .update_while_editing(false)
-            .clamping(SliderClamping::Never)
-            .custom_formatter(|value, _| plot::short(value))
-            .custom_parser(parse);
-        is_changed |= ui.add(slider).changed();
+        is_changed |= ui.add(number_slider(&mut loads.traction, -range..=range)).changed();
     });
     let is_loaded = loads.current.is_some();
     ui.horizontal(|ui| {

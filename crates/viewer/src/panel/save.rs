@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use kiss3d::egui::{RichText, TextEdit, Ui};
 
-use crate::request::UserRequest;
-use crate::theme;
-use crate::worker::Snapshot;
+use super::request::UserRequest;
+use crate::picture::theme;
+use crate::worker::{Command, Snapshot};
 
 /// The path that is proposed or typed, and the last answer to it.
 #[derive(Default)]
@@ -29,7 +29,7 @@ impl Save {
             let is_asked = ui.button("Save scene").clicked();
             ui.add(TextEdit::singleline(path).desired_width(f32::INFINITY));
             if is_asked {
-                requests.push(UserRequest::Save(PathBuf::from(path.trim())));
+                requests.push(UserRequest::Send(Command::Save(PathBuf::from(path.trim()))));
             }
         });
         match &self.answer {

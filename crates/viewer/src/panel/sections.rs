@@ -2,13 +2,11 @@
 
 use kiss3d::egui::{CollapsingHeader, RichText, Ui};
 
+use super::request::UserRequest;
+use super::rows::{ParameterRows, Section};
 use super::save::Save;
-use super::{ViewState, boundary, load, solver, timers};
-use crate::parameter_rows::{ParameterRows, Section};
-use crate::plot;
-use crate::request::UserRequest;
+use super::{ViewState, boundary, load, plot, solver, timers};
 use crate::setup::{Mode, Setup};
-use crate::worker::Snapshot;
 
 /// State of the sections between frames.
 #[derive(Default)]
@@ -33,14 +31,8 @@ const SAVE: Title = ("Save", &[Mode::Fix, Mode::Load]);
 
 impl Sections {
     /// Lays out the sections that a simulation has.
-    pub fn show(
-        &mut self,
-        ui: &mut Ui,
-        snapshot: &Snapshot,
-        state: &ViewState,
-        setup: &mut Setup,
-        requests: &mut Vec<UserRequest>,
-    ) {
+    pub fn show(&mut self, ui: &mut Ui, state: &ViewState, setup: &mut Setup, requests: &mut Vec<UserRequest>) {
+        let snapshot = state.snapshot;
         let rearranged = (self.arranged != setup.mode).then_some(setup.mode);
         self.arranged = setup.mode;
         let section =
@@ -63,7 +55,7 @@ impl Sections {
                 if let (Section::Solver, Some(scene)) = (kind, scene) {
                     solver::show(ui, &scene.scene, snapshot.integrator, requests);
                 }
-                rows.show(ui, kind, snapshot, state.objects, requests);
+                rows.show(ui, kind, state, requests);
                 match (kind, scene) {
                     (Section::Boundary, Some(scene)) => boundary::show(ui, scene, setup, state, requests),
                     (Section::Load, Some(scene)) => load::show(ui, scene, setup, state, requests),

@@ -5,10 +5,10 @@ use fem_scene::Scene;
 use fem_scene::tables::{IterationsTable, NewtonTable, SolverTable};
 use kiss3d::egui::{ComboBox, DragValue, Ui};
 
-use crate::change::{Change, Edit};
-use crate::parameter_rows::label;
-use crate::request::UserRequest;
-use crate::scene_edits;
+use super::request::UserRequest;
+use super::rows::label;
+use crate::editing::change::{Change, Edit};
+use crate::editing::edits;
 
 /// Lays out the choices that `scene` has with its integrator, which is the one in use.
 pub fn show(ui: &mut Ui, scene: &Scene, running: &str, requests: &mut Vec<UserRequest>) {
@@ -16,7 +16,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, running: &str, requests: &mut Vec<UserRe
     let mut push = |edit: Edit| requests.push(UserRequest::Change(Change::Edit(edit)));
     let kinds = Integrator::ALL.map(|kind| (kind.name().replace('_', " "), kind));
     if let Some(kind) = choice(ui, "integrator", &kinds, &method) {
-        push(scene_edits::integrator(scene, kind));
+        push(edits::integrator(scene, kind));
     }
     // Tables belong to the integrator of the scene: that which N has chosen has defaults.
     if method != scene.time.integrator {
@@ -37,7 +37,7 @@ fn newton(ui: &mut Ui, scene: &Scene, push: &mut impl FnMut(Edit)) {
     let mut table: NewtonTable = scene.newton.clone().unwrap_or_default();
     let count = count(ui, "Newton iterations", &mut table.max_iterations, 50);
     if tolerance(ui, "Newton tolerance", &mut table.tolerance, 1e-8) || count {
-        push(scene_edits::newton(&table));
+        push(edits::of_method("newton", Some(&table)));
     }
 }
 
@@ -52,19 +52,19 @@ fn linear(ui: &mut Ui, scene: &Scene, push: &mut impl FnMut(Edit)) {
             preconditioner: None,
             precision: None,
         });
-        return push(scene_edits::solver(table.as_ref()));
+        return push(edits::of_method("solver", table.as_ref()));
     }
     let Some(mut table) = present else { return };
     if table.kind == SolverKind::Pcg {
         let kinds = Preconditioner::FACTS.map(|(kind, name, _)| (name.replace('_', " "), kind));
         if let Some(kind) = choice(ui, "preconditioner", &kinds, &table.preconditioner.unwrap_or_default()) {
             table.preconditioner = Some(kind);
-            push(scene_edits::solver(Some(&table)));
+            push(edits::of_method("solver", Some(&table)));
         }
     }
     let is_direct = matches!(table.kind, SolverKind::Cholesky | SolverKind::Lu);
     if !is_direct && tolerance(ui, "relative residual", &mut table.tolerance, 1e-5) {
-        push(scene_edits::solver(Some(&table)));
+        push(edits::of_method("solver", Some(&table)));
     }
 }
 
@@ -78,7 +78,7 @@ fn iterations(ui: &mut Ui, scene: &Scene, method: Integrator, push: &mut impl Fn
         _ => {}
     }
     if is_changed {
-        push(scene_edits::iterations(&table));
+        push(edits::of_method("iterations", Some(&table)));
     }
 }
 

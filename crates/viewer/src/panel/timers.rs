@@ -2,8 +2,8 @@
 
 use kiss3d::egui::{Grid, RichText, Ui, vec2};
 
+use crate::picture::{numbers, theme};
 use crate::worker::Snapshot;
-use crate::{plot, theme};
 
 /// Lays out a row for each part, with its share of the whole step.
 pub fn show(ui: &mut Ui, snapshot: &Snapshot) {
@@ -19,13 +19,13 @@ pub fn show(ui: &mut Ui, snapshot: &Snapshot) {
         ui.end_row();
         for timer in &snapshot.timers {
             ui.label(timer.name.replace('_', " "));
-            ui.label(plot::short(1e3 * timer.seconds));
+            ui.label(numbers::short(1e3 * timer.seconds));
             ui.label(format!("{:.0} %", 100.0 * timer.seconds / whole));
-            ui.label(plot::short(timer.uses));
+            ui.label(numbers::short(timer.uses));
             ui.end_row();
         }
         ui.label(RichText::new("the whole step").strong());
-        ui.label(RichText::new(plot::short(1e3 * snapshot.step_seconds)).strong());
+        ui.label(RichText::new(numbers::short(1e3 * snapshot.step_seconds)).strong());
         ui.end_row();
     });
 }

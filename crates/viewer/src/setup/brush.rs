@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use kiss3d::glamx::Vec3;
 
 use super::{Body, Pointer};
-use crate::change::Change;
-use crate::scene_edits::{self, Motion};
-use crate::worker::scene_editor::SceneSetup;
+use crate::editing::change::Change;
+use crate::editing::editor::SceneSetup;
+use crate::editing::edits::{self, Motion};
 
 /// Radius of a new brush, in radii of the body.
 const RADIUS: f32 = 0.08;
@@ -117,10 +117,10 @@ impl Brush {
         }
         self.stroke = stroke; // shown until the scene has its nodes
         let edit = match self.target {
-            Target::Fixed => scene_edits::fixed(&scene.scene, &nodes),
+            Target::Fixed => edits::fixed(&scene.scene, &nodes),
             Target::Prescribed(number) => {
                 let is_new = number >= scene.scene.prescribed.len();
-                scene_edits::prescribed(number, &nodes, self.new.filter(|_| is_new))
+                edits::prescribed(number, &nodes, self.new.filter(|_| is_new))
             }
         };
         Some(Ok(Change::Edit(edit)))

@@ -7,11 +7,11 @@ use kiss3d::glamx::{Vec2, Vec3};
 use nalgebra::Vector3;
 
 use super::{Body, Pointer};
-use crate::change::Change;
-use crate::geometry::double;
-use crate::scene_edits::{self, Force};
-use crate::scene_parameters::young;
-use crate::worker::scene_editor::SceneSetup;
+use crate::editing::change::Change;
+use crate::editing::editor::SceneSetup;
+use crate::editing::edits::{self, Force};
+use crate::editing::parameters::young;
+use crate::picture::geometry::double;
 
 /// Largest angle between the normals of a smooth part and of the face that was clicked, degrees.
 const ANGLE: f64 = 20.0;
@@ -164,13 +164,13 @@ impl Loads {
         let faces: Vec<&[usize]> = self.faces.iter().map(|&face| &body.facets.nodes[face][..]).collect();
         let number = self.current.unwrap_or(scene.scene.traction.len());
         self.current = (!faces.is_empty()).then_some(number);
-        Ok(Change::Edit(scene_edits::load(&scene.scene, number, &faces, force)))
+        Ok(Change::Edit(edits::load(&scene.scene, number, &faces, force)))
     }
 
     /// Removes the load from the scene; the faces stay picked.
     pub fn remove(&mut self) -> Option<Change> {
         self.traction = 0.0;
-        self.current.take().map(|load| Change::Edit(scene_edits::without_load(load)))
+        self.current.take().map(|load| Change::Edit(edits::without_load(load)))
     }
 
     /// Takes over the load of the scene once all changes are done.

@@ -7,10 +7,11 @@ use kiss3d::window::Window;
 
 use super::brush::Target;
 use super::{Body, Mode, Setup, loads};
-use crate::camera::Camera;
-use crate::geometry::single;
-use crate::theme;
-use crate::worker::scene_editor::SceneSetup;
+use crate::editing::editor::SceneSetup;
+use crate::picture::camera::Camera;
+use crate::picture::geometry::single;
+use crate::picture::obstacles::draw_arrow;
+use crate::picture::theme;
 
 const CORNERS: usize = 40; // of the circle that shows the brush
 const MOST_ARROWS: usize = 60; // of a load
@@ -19,11 +20,11 @@ const LONGEST_ARROW: f32 = 0.35; // in radii of the body, of a load at the end o
 impl Setup {
     /// The picked faces of a solid body, by their nodes.
     pub fn picked_triangles(&self, shape: &Shape) -> Vec<[usize; 3]> {
-        if self.mode != Mode::Load || self.loads.faces.is_empty() || shape.mesh.is_flat() {
+        if self.mode != Mode::Load || self.loads.faces.is_empty() || shape.mesh.dimension() == 2 {
             return Vec::new();
         }
         let facets = &self.body(shape).facets;
-        self.loads.faces.iter().filter_map(|&face| facets.nodes[face][..].try_into().ok()).collect()
+        self.loads.faces.iter().filter_map(|&face| facets.nodes[face][..3].try_into().ok()).collect()
     }
 
     /// Draws the marks into the next frame.
@@ -39,7 +40,7 @@ impl Setup {
         }
         match self.mode {
             Mode::Fix => self.draw_brush(window, body, camera),
-            Mode::Load if shape.mesh.is_flat() => self.draw_edges(window, body, positions, camera),
+            Mode::Load if shape.mesh.dimension() == 2 => self.draw_edges(window, body, positions, camera),
             Mode::Load | Mode::Pull => {}
         }
     }
@@ -98,7 +99,6 @@ fn draw_arrows(
     camera: &Camera,
 ) {
     let faces = loads::loaded_faces(body, scene, load, positions);
-    let width = 2.0 * window.scale_factor() as f32;
     let range = loads::range(scene).max(f64::MIN_POSITIVE);
     let every = faces.len().div_ceil(MOST_ARROWS).max(1);
     for (centre, normal, force) in faces.into_iter().step_by(every) {
@@ -108,10 +108,6 @@ fn draw_arrows(
         let outward = camera.nearer(centre, 0.01);
         // Compression is drawn outside too, because the body would hide arrows inside.
         let (tail, tip) = if normal.dot(shaft) < 0.0 { (outward - shaft, outward) } else { (outward, outward + shaft) };
-        let side = shaft.cross(camera.direction()).normalize_or_zero();
-        let head = shaft.normalize_or_zero() * (0.35 * shaft.length()).min(0.06 * body.radius);
-        window.draw_line(tail, tip, color, width, false);
-        window.draw_line(tip, tip - head + side * (0.5 * head.length()), color, width, false);
-        window.draw_line(tip, tip - head - side * (0.5 * head.length()), color, width, false);
+        draw_arrow(window, [tail, tip], 0.06 * body.radius, color, camera);
     }
 }

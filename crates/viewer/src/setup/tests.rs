@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 
 use super::brush::Target;
 use super::*;
-use crate::camera::View;
-use crate::scene_edits::Motion;
+use crate::editing::edits::Motion;
+use crate::picture::camera::View;
 
 const BEAM: &str = r#"
 pipeline = "engine"

@@ -3,10 +3,10 @@
 use std::thread::ThreadId;
 use std::time::{Duration, Instant};
 
-use super::scene_editor::SceneEditor;
 use super::tests::{Fake, REAL_TIME, fake, wait_for};
 use super::*;
-use crate::options::{Builder, Editing};
+use crate::editing::editor::{Builder, Editing};
+use fem_model::simulation::Shape;
 
 pub const SCENE: &str = r#"
 pipeline = "engine"
@@ -31,7 +31,7 @@ pub fn start(seconds: f64) -> (Worker, Calls) {
     let calls = Calls::default();
     let mesh = || fem_mesh::box_mesh([1.0; 3], 1, fem_mesh::Pattern::Alternating).unwrap().into();
     let seen = Arc::clone(&calls);
-    let builder = Builder::new(move |scene, shape| {
+    let builder: Builder = Arc::new(move |scene: &Scene, shape: Option<&Shape>| {
         seen.lock().unwrap().push((std::thread::current().id(), shape.is_some()));
         std::thread::sleep(Duration::from_secs_f64(seconds));
         let density = scene.material.density;

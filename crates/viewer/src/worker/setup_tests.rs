@@ -3,8 +3,8 @@
 use super::editing_tests::{SCENE, start};
 use super::tests::wait_for;
 use super::*;
-use crate::change::Edit;
-use crate::scene_edits::{self, Force};
+use crate::editing::change::Edit;
+use crate::editing::edits::{self, Force};
 
 fn scene() -> Scene {
     fem_scene::parse(SCENE, "fake.toml".as_ref()).unwrap()
@@ -24,11 +24,11 @@ fn painted_nodes_start_the_motion_again_and_loads_do_not() {
         preconditioner: None,
         precision: None,
     };
-    edit(&worker, scene_edits::solver(Some(&solver)));
+    edit(&worker, edits::of_method("solver", Some(&solver)));
     let after = wait_for(&worker, "with another solver", |s| s.changes == 1 && !s.is_building);
     assert!(after.steps >= before.steps, "{}", after.steps);
-    let motion = Some((scene_edits::Motion::Velocity, [0.0, 0.0, 1.0]));
-    edit(&worker, scene_edits::prescribed(0, &[1], motion));
+    let motion = Some((edits::Motion::Velocity, [0.0, 0.0, 1.0]));
+    edit(&worker, edits::prescribed(0, &[1], motion));
     let again = wait_for(&worker, "with a prescribed motion", |s| s.changes == 2 && !s.is_building);
     assert!(again.refusal.is_none() && again.steps < before.steps, "{:?}", again.refusal);
     let scene = worker.finish().scene.unwrap();
@@ -42,7 +42,7 @@ fn a_saved_scene_has_the_changes_and_the_parameters_of_the_simulation() {
     let path = folder.join("saved.toml");
     let _ = std::fs::remove_file(&path);
     let (worker, _) = start(0.0);
-    edit(&worker, scene_edits::fixed(&scene(), &[2, 3]));
+    edit(&worker, edits::fixed(&scene(), &[2, 3]));
     worker.send(Command::Save(path.clone()));
     let saved = wait_for(&worker, "saved", |s| s.saved.is_some());
     assert_eq!(saved.saved, Some(Ok(path.clone())));
@@ -58,11 +58,11 @@ fn a_saved_scene_has_the_changes_and_the_parameters_of_the_simulation() {
 #[test]
 fn another_mesh_is_refused_while_nodes_are_listed_by_their_numbers() {
     let (worker, _) = start(0.0);
-    edit(&worker, scene_edits::fixed(&scene(), &[2]));
+    edit(&worker, edits::fixed(&scene(), &[2]));
     worker.send(Command::Change(vec![Change::Number("cells", 2.0)]));
     let refused = wait_for(&worker, "refused", |s| s.refusal.is_some());
     assert!(refused.refusal.unwrap().contains("erase the painted nodes first"));
-    edit(&worker, scene_edits::fixed(&scene(), &[]));
+    edit(&worker, edits::fixed(&scene(), &[]));
     worker.send(Command::Change(vec![Change::Number("cells", 2.0)]));
     wait_for(&worker, "accepted", |s| s.changes == 4 && !s.is_building && s.refusal.is_none());
 }
@@ -70,7 +70,7 @@ fn another_mesh_is_refused_while_nodes_are_listed_by_their_numbers() {
 #[test]
 fn an_edit_that_the_scene_refuses_has_a_message_and_leaves_the_run_as_it_is() {
     let (worker, _) = start(0.0);
-    edit(&worker, scene_edits::load(&scene(), 0, &[&[0, 1, 2]], Force::Pressure(f64::INFINITY)));
+    edit(&worker, edits::load(&scene(), 0, &[&[0, 1, 2]], Force::Pressure(f64::INFINITY)));
     let refused = wait_for(&worker, "refused", |s| s.refusal.is_some());
     wait_for(&worker, "going on", |s| s.steps > refused.steps + 2);
     assert!(worker.finish().scene.unwrap().traction.is_empty());

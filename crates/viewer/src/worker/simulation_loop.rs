@@ -4,23 +4,23 @@ mod changes;
 
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use fem_model::simulation::Simulation;
-use fem_scene::output::{ElementField, EnergyRow};
+use fem_scene::output::EnergyRow;
+use fem_scene::simulate::quantile;
 use nalgebra::Vector3;
 
-use super::scene_editor::SceneEditor;
+use super::history::History;
+use super::pacing::{Pace, Rate};
 use super::step_timers::StepTimers;
-use super::{Command, Finished, LoopOptions, Slot, Snapshot, Stepping, Stop};
-use crate::frame::{Frame, Wanted};
-use crate::history::History;
-use crate::pacing::{Pace, Rate};
+use super::{Command, LoopOptions, Outcome, Slot, Snapshot, Stepping, Stop};
+use crate::editing::editor::SceneEditor;
 use crate::panics::panic_message;
+use crate::picture::frame::{Frame, Wanted};
 
 const STEPS_IN_MEDIAN: usize = 61;
 
@@ -29,10 +29,6 @@ pub struct SimulationLoop {
     simulation: Box<dyn Simulation>,
     options: LoopOptions,
     editor: Option<SceneEditor>,
-    /// Number of changes of the scene so far, refused ones included.
-    changes: usize,
-    /// The longest stable time step of an explicit method, s.
-    critical_time_step: Option<f64>,
     commands: Receiver<Command>,
     slot: Arc<Slot>,
     started: Instant,
@@ -45,14 +41,9 @@ pub struct SimulationLoop {
     /// Simulated time of the last frame, s, in [`Stepping::Frames`].
     last_frame: f64,
     frame_requested: bool,
-    paused: bool,
-    stop: Option<Stop>,
-    refusal: Option<String>,
     wanted: Wanted,
-    /// The fields that the body has.
-    fields: Vec<ElementField>,
     timers: StepTimers,
-    saved: Option<Result<PathBuf, String>>,
+    /// The last snapshot, whose flags, messages and inspected values hold until they change.
     last: Snapshot,
 }
 
@@ -69,8 +60,6 @@ impl SimulationLoop {
             simulation,
             options,
             editor,
-            changes: 0,
-            critical_time_step: None,
             commands,
             slot,
             started: Instant::now(),
@@ -82,19 +71,14 @@ impl SimulationLoop {
             energies: Vec::new(),
             last_frame: 0.0,
             frame_requested: false,
-            paused: false,
-            stop: None,
-            refusal: None,
             wanted: Wanted::default(),
-            fields: Vec::new(),
             timers: StepTimers::default(),
-            saved: None,
             last: Snapshot::default(),
         }
     }
 
     /// Steps and executes commands until it is told to quit or the channel of commands is closed.
-    pub fn run(mut self) -> Finished {
+    pub fn run(mut self) -> Outcome {
         self.guarded(Self::begin);
         loop {
             match self.next_command() {
@@ -103,12 +87,13 @@ impl SimulationLoop {
                 Err(RecvTimeoutError::Timeout) => self.guarded(Self::step),
             }
         }
-        Finished {
+        Outcome {
             simulation: Some(self.simulation),
             step_seconds: self.step_seconds,
             energies: self.energies,
-            stop: self.stop,
+            stop: self.last.stop,
             scene: self.editor.map(|editor| editor.scene().clone()),
+            not_written: None,
         }
     }
 
@@ -121,8 +106,7 @@ impl SimulationLoop {
     /// Calls `part`. A panic in it stops the simulation and is published with the last snapshot.
     fn guarded(&mut self, part: impl FnOnce(&mut Self)) {
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| part(self))) {
-            self.stop = Some(Stop::Panicked(panic_message(panic.as_ref())));
-            self.last.stop.clone_from(&self.stop);
+            self.last.stop = Some(Stop::Panicked(panic_message(panic.as_ref())));
             self.slot.put(self.last.clone());
         }
     }
@@ -143,7 +127,7 @@ impl SimulationLoop {
 
     fn is_running(&self) -> bool {
         let waits_for_frame = matches!(self.options.stepping, Stepping::Frames(_)) && !self.frame_requested;
-        self.stop.is_none() && !self.paused && !self.is_finished() && !waits_for_frame
+        self.last.stop.is_none() && !self.last.paused && !self.is_finished() && !waits_for_frame
     }
 
     fn is_finished(&self) -> bool {
@@ -152,14 +136,14 @@ impl SimulationLoop {
 
     fn execute(&mut self, command: Command) {
         match command {
-            Command::TogglePause => self.paused = !self.paused,
+            Command::TogglePause => self.last.paused = !self.last.paused,
             Command::Reset => self.reset(),
             Command::NextIntegrator => {
                 self.simulation.next_integrator();
                 self.inspect();
             }
             Command::Change(changes) => self.change(&changes),
-            Command::Set(key, value) => self.refusal = self.simulation.set_parameter(key, value).err(),
+            Command::Set(key, value) => self.last.refusal = self.simulation.set_parameter(key, value).err(),
             Command::Save(path) => self.save(path),
             Command::Want(wanted) => self.wanted = wanted,
             Command::Pull(pull) => return self.pull(pull),
@@ -177,8 +161,8 @@ impl SimulationLoop {
 
     fn reset(&mut self) {
         self.simulation.reset();
-        self.stop = None;
-        self.refusal = None;
+        self.last.stop = None;
+        self.last.refusal = None;
         self.forget_run();
     }
 
@@ -199,7 +183,7 @@ impl SimulationLoop {
         let seconds = before.elapsed().as_secs_f64();
         match outcome {
             Ok(()) => self.after_step(seconds),
-            Err(failure) => self.stop = Some(Stop::Failed(failure)),
+            Err(failure) => self.last.stop = Some(Stop::Failed(failure)),
         }
         let show = match self.options.stepping {
             Stepping::RealTime => self.slot.wanted.swap(false, Ordering::AcqRel),
@@ -249,29 +233,23 @@ impl SimulationLoop {
         self.last = Snapshot {
             frame: Frame::of(&**simulation, self.wanted),
             shape: Some(simulation.shape()),
-            fields: self.fields.clone(),
             contact_force: contact_force(&**simulation),
             weight: simulation.weight(),
             time: simulation.time(),
             steps: self.step_seconds.len(),
-            step_seconds: median(&self.recent),
+            step_seconds: quantile(self.recent.make_contiguous(), 0.5).unwrap_or(0.0),
             rate: self.rate.factor(),
             integrator: simulation.integrator(),
             parameters: simulation.parameters(),
             scene_parameters: self.editor.as_ref().map_or_else(Vec::new, |editor| editor.parameters()),
             object: self.editor.as_ref().and_then(|editor| editor.object()),
             setup: self.editor.as_ref().and_then(SceneEditor::setup),
-            saved: self.saved.clone(),
             timers: self.timers.rows().to_vec(),
             is_building: false,
-            changes: self.changes,
             dt: simulation.dt(),
-            critical_time_step: self.critical_time_step,
             history: self.history.to_vec(),
-            paused: self.paused,
             finished: self.is_finished(),
-            stop: self.stop.clone(),
-            refusal: self.refusal.clone(),
+            ..std::mem::take(&mut self.last)
         };
         self.slot.put(self.last.clone());
     }
@@ -282,10 +260,4 @@ fn contact_force(simulation: &dyn Simulation) -> Option<f64> {
     let contacts = simulation.contacts();
     let sum: Vector3<f64> = contacts.iter().map(|contact| Vector3::from(contact.force)).sum();
     (!contacts.is_empty()).then(|| sum.norm())
-}
-
-fn median(values: &VecDeque<f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.iter().copied().collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }

@@ -4,7 +4,10 @@ use std::sync::atomic::AtomicUsize;
 use std::time::{Duration, Instant};
 
 use fem_model::BodyMesh;
-use fem_model::simulation::{Cause, Checkpoint, Counters, Energies, Part, Shape};
+use fem_model::simulation::{
+    Cause, Checkpoint, Counters, Diagnostics, Energies, EnergyLedger, Interactive, Part, Plane, PlaneContact,
+    PlasticFlow, Reaction, Shape,
+};
 use kiss3d::glamx::Vec3;
 use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 
@@ -97,9 +100,6 @@ impl Simulation for Fake {
         (self.time, self.steps) = (checkpoint.time, checkpoint.steps);
         Ok(())
     }
-    fn weight(&self) -> Option<f64> {
-        Some(self.density)
-    }
     fn energies(&self) -> Energies {
         Energies { kinetic: 1.0, potential: self.time }
     }
@@ -110,13 +110,24 @@ impl Simulation for Fake {
         self.fields.fetch_add(1, Ordering::SeqCst);
         vec![]
     }
-    fn contact_forces(&self) -> Option<DVector<f64>> {
-        self.fields.fetch_add(1, Ordering::SeqCst);
-        Some(DVector::from_vec(vec![0.0, 1.0, 0.0]))
-    }
     fn integrator(&self) -> &'static str {
         "verlet"
     }
+    fn counters(&self) -> Counters {
+        Counters::default()
+    }
+    fn parts(&self) -> Vec<Part> {
+        Vec::new()
+    }
+    fn display_vertices_outside(&self) -> usize {
+        0
+    }
+    fn nodal_forces(&self) -> Option<DVector<f64>> {
+        None
+    }
+}
+
+impl Interactive for Fake {
     fn next_integrator(&mut self) -> &'static str {
         "verlet"
     }
@@ -133,11 +144,66 @@ impl Simulation for Fake {
     fn pull(&mut self, pull: Option<Pull>) {
         self.pulled = pull;
     }
-    fn counters(&self) -> Counters {
-        Counters::default()
+}
+
+impl Diagnostics for Fake {
+    fn substeps(&self) -> usize {
+        1
     }
-    fn parts(&self) -> Vec<Part> {
+    fn energy_ledger(&self) -> Option<EnergyLedger> {
+        None
+    }
+    fn unexplained_energy(&self) -> Option<Failure> {
+        None
+    }
+    fn estimated_error(&self) -> Option<f64> {
+        None
+    }
+    fn load_factor(&self) -> Option<f64> {
+        None
+    }
+    fn inverted_elements(&self) -> usize {
+        0
+    }
+    fn critical_time_step(&self) -> Option<f64> {
+        None
+    }
+    fn has_stress(&self) -> bool {
+        true
+    }
+    fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
+        self.stresses()
+    }
+    fn material_of_elements(&self) -> Vec<usize> {
         Vec::new()
+    }
+    fn plastic_flow(&self) -> Option<PlasticFlow> {
+        None
+    }
+    fn reactions(&self) -> Vec<Reaction> {
+        Vec::new()
+    }
+    fn contacts(&self) -> Vec<PlaneContact> {
+        Vec::new()
+    }
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+    fn planes(&self) -> Vec<Plane> {
+        Vec::new()
+    }
+    fn weight(&self) -> Option<f64> {
+        Some(self.density)
+    }
+    fn contact_forces(&self) -> Option<DVector<f64>> {
+        self.fields.fetch_add(1, Ordering::SeqCst);
+        Some(DVector::from_vec(vec![0.0, 1.0, 0.0]))
+    }
+    fn lag_residual(&self) -> Option<f64> {
+        None
     }
 }
 

@@ -4,10 +4,13 @@ use nalgebra::Vector3;
 
 use super::{Case, blocks_of_both_kinds_are_alike, case_of, converges, largest, law, product_without_a_matrix, random};
 use fem_elements::elements::Elements;
-use fem_elements::elements::quadratic::{BARYCENTRIC, POINTS};
 use fem_elements::materials::{Law, Linear};
 use fem_elements::tensor::Tensor;
-use fem_mesh::{Pattern, QuadraticMesh, SurfaceMesh, quadratic, rectangle_mesh};
+use fem_mesh::{Pattern, SurfaceMesh, rectangle_mesh};
+use fem_model::BodyMesh;
+
+/// Quadrature points of a triangle.
+const POINTS: usize = 3;
 
 /// Triangles of 2 × 1 m whose inner nodes are displaced, and whose triangles begin at different corners.
 fn irregular(cells: usize) -> SurfaceMesh {
@@ -22,9 +25,14 @@ fn irregular(cells: usize) -> SurfaceMesh {
     mesh
 }
 
-fn triangles(mesh: &QuadraticMesh) -> Case<2, 5, 6> {
-    let elements: Vec<[u32; 6]> = mesh.elements.iter().map(|nodes| nodes.map(|node| node as u32)).collect();
-    case_of(&mesh.vertices, &elements, |pattern| Elements::quadratic(&mesh.vertices, &elements, &[], pattern))
+fn quadratic(linear: SurfaceMesh) -> BodyMesh {
+    BodyMesh::flat(linear, 1.0).of_order(2).unwrap()
+}
+
+fn triangles(mesh: &BodyMesh) -> Case<2, 5, 6> {
+    let elements: Vec<[u32; 6]> = mesh.arrays().unwrap().iter().map(|nodes| nodes.map(|node| node as u32)).collect();
+    let x = mesh.vertices();
+    case_of(x, &elements, |pattern| Elements::at_points(mesh.element(), x, &elements, &[], pattern))
 }
 
 fn sample() -> Case<2, 5, 6> {
@@ -43,16 +51,15 @@ fn products_and_blocks_of_quadratic_triangles_are_those_of_their_matrix() {
 }
 
 /// Displacements at the nodes of u(x, y), and the displacement gradients that the elements find, with their places.
-fn gradients(mesh: &QuadraticMesh, u: impl Fn(f64, f64) -> [f64; 2]) -> Vec<([f64; 2], Tensor<f64>)> {
+fn gradients(mesh: &BodyMesh, u: impl Fn(f64, f64) -> [f64; 2]) -> Vec<([f64; 2], Tensor<f64>)> {
     let at = |x: &Vector3<f64>| u(x.x, x.y);
-    let u: Vec<[f64; 3]> = mesh.vertices.iter().map(|x| [at(x)[0], at(x)[1], 0.0]).collect();
+    let u: Vec<[f64; 3]> = mesh.vertices().iter().map(|x| [at(x)[0], at(x)[1], 0.0]).collect();
     let mut found = Vec::new();
     triangles(mesh).elements.for_each_gradient(&u, |point, _, G| {
-        let corners = [0, 1, 2].map(|k| mesh.vertices[mesh.elements[point / POINTS][k]]);
-        let place: Vector3<f64> = corners.iter().zip(BARYCENTRIC[point % POINTS]).map(|(x, L)| x * L).sum();
+        let place = mesh.points(point / POINTS)[point % POINTS];
         found.push(([place.x, place.y], *G));
     });
-    assert_eq!(found.len(), POINTS * mesh.elements.len());
+    assert_eq!(found.len(), POINTS * mesh.elements());
     found
 }
 
@@ -80,7 +87,7 @@ fn a_rigid_motion_of_quadratic_triangles_has_no_forces() {
     let turned = |x: &Vector3<f64>| [cos * x.x - sin * x.y - x.x + 5.0, sin * x.x + cos * x.y - x.y - 3.0, 0.0];
     let sheared = |x: &Vector3<f64>| [x.y, 0.0, 0.0];
     let [of_turned, of_sheared] = [&turned as &dyn Fn(&Vector3<f64>) -> [f64; 3], &sheared].map(|motion| {
-        let u: Vec<[f64; 3]> = mesh.vertices.iter().map(motion).collect();
+        let u: Vec<[f64; 3]> = mesh.vertices().iter().map(motion).collect();
         let mut gradient = vec![[0.0; 3]; u.len()];
         elements.add_gradient(&law::<f64>(), &u, &mut gradient);
         largest(&gradient)
@@ -95,7 +102,7 @@ fn the_rule_integrates_the_energy_of_a_linear_law_exactly() {
     // Every mesh has the same displacement, so energies differ by errors of integration alone.
     let energy = |linear: SurfaceMesh| {
         let mesh = quadratic(linear);
-        triangles(&mesh).elements.energy(&law, &mesh.vertices.iter().map(u).collect::<Vec<_>>())
+        triangles(&mesh).elements.energy(&law, &mesh.vertices().iter().map(u).collect::<Vec<_>>())
     };
     let [coarse, fine] = [1, 4].map(|cells| energy(irregular(cells)));
     assert!((coarse - fine).abs() < 1e-13 * fine, "{coarse} {fine}");
@@ -117,12 +124,13 @@ fn by_gauss(f: impl Fn(f64, f64) -> f64) -> f64 {
 #[test]
 fn an_affine_displacement_leaves_inner_nodes_of_an_irregular_mesh_without_force() {
     let mesh = quadratic(irregular(3));
-    let u: Vec<[f64; 3]> = mesh.vertices.iter().map(|x| [0.3 * x.x - 0.2 * x.y, 0.1 * x.x + 0.25 * x.y, 0.0]).collect();
+    let u: Vec<[f64; 3]> =
+        mesh.vertices().iter().map(|x| [0.3 * x.x - 0.2 * x.y, 0.1 * x.x + 0.25 * x.y, 0.0]).collect();
     let case = triangles(&mesh);
     let mut gradient = vec![[0.0; 3]; u.len()];
     case.elements.add_gradient(&law::<f64>(), &u, &mut gradient);
     let is_inner = |x: &Vector3<f64>| x.x > 1e-9 && x.x < 2.0 - 1e-9 && x.y > 1e-9 && x.y < 1.0 - 1e-9;
     let inner: Vec<[f64; 3]> =
-        gradient.iter().zip(&mesh.vertices).filter(|(_, x)| is_inner(x)).map(|(force, _)| *force).collect();
+        gradient.iter().zip(mesh.vertices()).filter(|(_, x)| is_inner(x)).map(|(force, _)| *force).collect();
     assert!(inner.len() > 20 && largest(&inner) < 1e-12 * largest(&gradient));
 }

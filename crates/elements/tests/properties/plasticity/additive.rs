@@ -7,7 +7,7 @@ const YIELD: f64 = 0.05;
 const MAXIMUM: f64 = 0.6;
 
 fn law(plastic: Tensor<f64>) -> Additive<f64> {
-    Additive { mu: 1.5, lambda: 4.0, plastic, is_flat: false }
+    Additive { mu: 1.5, lambda: 4.0, plastic, is_in_plane: false }
 }
 
 /// A symmetric plastic strain.

@@ -1,7 +1,7 @@
 //! A body as arrays for a device, in the engine's numbering.
 
 use fem_gpu::{Environment, Law};
-use fem_model::{Body, BodyMesh, EnvironmentValues, Material};
+use fem_model::{Body, EnvironmentValues, Material};
 
 use crate::forces::{Moment, dead_load};
 use crate::integrators::color_nodes;
@@ -25,7 +25,6 @@ pub(super) fn environment(body: &Body, values: &EnvironmentValues) -> Environmen
 
 /// The arrays of a body, whose masses are lumped.
 pub(super) fn arrays(system: &System<f64>, body: &Body) -> fem_gpu::Body {
-    let BodyMesh::Solid(mesh) = &body.shape.mesh else { unreachable!("flat bodies are refused") };
     let mut inverse_masses: Vec<[f64; 3]> = system.mass.diagonal().into_iter().map(|mass| [1.0 / mass; 3]).collect();
     system.dirichlet.clear_constrained(&mut inverse_masses);
     let of_mesh = &body.initial_velocity;
@@ -37,7 +36,7 @@ pub(super) fn arrays(system: &System<f64>, body: &Body) -> fem_gpu::Body {
         system.dirichlet.clear_constrained(&mut velocities);
     }
     fem_gpu::Body {
-        tetrahedra: device_elements::tetrahedra(system, mesh),
+        tetrahedra: device_elements::tetrahedra(system),
         weights: dead_loads(
             system,
             &Body { body_force: None, tractions: Vec::new(), nodal_forces: Vec::new(), ..body.clone() },
@@ -50,8 +49,7 @@ pub(super) fn arrays(system: &System<f64>, body: &Body) -> fem_gpu::Body {
 
 /// The nodes of a body by colour, those of vertex block descent on the processor.
 pub(super) fn colors(system: &System<f64>, body: &Body) -> Vec<Vec<u32>> {
-    let BodyMesh::Solid(mesh) = &body.shape.mesh else { unreachable!("flat bodies are refused") };
-    let corners = system.numbering.elements(&mesh.elements);
+    let corners = system.numbering.elements(body.shape.mesh.tetrahedra());
     let cliques: Vec<&[u32]> = corners.iter().map(|corners| &corners[..]).collect();
     color_nodes(system.nodes(), &cliques)
 }

@@ -54,10 +54,11 @@ fn unknown(body: &Body, method: &Method) -> Option<Unknown> {
     let is_released = body.dirichlet.iter().any(|condition| condition.until.is_some());
     let has_stiffness_damping = body.damping.is_some_and(|damping| damping.beta > 0.0);
     let traction_curve = body.tractions.iter().any(|traction| traction.curve.is_some());
+    let field = body.fields.tables().next();
     let iterations = method.iterations;
     let is_accelerated = iterations.acceleration.is_some_and(|radius| radius > 0.0);
-    let keys: [(&'static str, bool, &'static str, &'static str); 18] = [
-        ("mesh", body.shape.mesh.is_flat(), "is a flat body", "take tetrahedra"),
+    let keys: [(&'static str, bool, &'static str, &'static str); 19] = [
+        ("mesh", body.shape.mesh.dimension() == 2, "is a flat body", "take tetrahedra"),
         ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
         ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
         (
@@ -76,6 +77,7 @@ fn unknown(body: &Body, method: &Method) -> Option<Unknown> {
             "has a factor of time",
             "remove its curve",
         ),
+        (field.unwrap_or_default(), field.is_some(), "is a force field", "remove the table"),
         ("springs", !body.springs.is_empty(), "are forces between two nodes", "remove the tables"),
         ("prescribed", has_motion, "is a motion of nodes", "use [fixed]"),
         ("fixed.until", is_released, "is a time from which nodes are free", "remove it"),

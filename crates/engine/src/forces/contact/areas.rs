@@ -5,7 +5,9 @@
 //! within it, as the normal forces of friction do: the barrier remains a potential of the distances alone. The energy that a change of the
 //! areas adds from step to step is of the order of the load times d̂ times the angle turned through.
 
+use fem_elements::elements::shares::face_shares;
 use fem_model::Body;
+use fem_model::element::Element;
 use nalgebra::Vector3;
 
 use crate::numbering::Numbering;
@@ -21,9 +23,12 @@ const ROUNDING: f64 = 1e-9;
 /// The areas of the nodes of a body for each of its planes. Nodes have the engine's numbers.
 #[derive(Clone, Debug)]
 pub struct Areas {
+    element: &'static Element,
     faces: Vec<Face>,
+    /// The nodes of the first face, corners first, then those of the next.
+    nodes: Vec<usize>,
     /// The parts of a face that its nodes have.
-    shares: &'static [f64],
+    shares: Vec<f64>,
     /// Unit normals of the planes.
     normals: Vec<Vector3<f64>>,
     /// Least area of each node, m²: zero for a node that cannot move away from the plane. Those of the first plane come first.
@@ -35,22 +40,21 @@ pub struct Areas {
 /// A face of the boundary: a triangle of a solid body, an edge of a flat one.
 #[derive(Clone, Debug)]
 struct Face {
-    nodes: [usize; 3],
-    /// Undeformed positions of its corners, m.
+    /// Undeformed positions of its corners, m; an edge has two.
     rest: [Vector3<f64>; 3],
     /// Undeformed area, m².
     area: f64,
-    is_edge: bool,
 }
 
 impl Areas {
     /// The areas of a body for planes with these unit normals, undeformed.
     pub fn new(body: &Body, numbering: &Numbering, normals: Vec<Vector3<f64>>) -> Self {
         let mesh = &body.shape.mesh;
-        let faces = faces(body, numbering);
+        let (element, shares) = (mesh.element(), face_shares(mesh.element()));
+        let (faces, nodes) = faces(body, numbering);
         let mut around = vec![0.0; mesh.vertices().len()];
-        for face in &faces {
-            face.nodes.iter().zip(mesh.face_shares()).for_each(|(&node, share)| around[node] += share * face.area);
+        for (face, nodes) in faces.iter().zip(nodes.chunks_exact(shares.len())) {
+            nodes.iter().zip(&shares).for_each(|(&node, share)| around[node] += share * face.area);
         }
         let (sections, constrained) = (sections(body), constrained_directions(body));
         let least = |normal: &Vector3<f64>, node: usize| {
@@ -64,20 +68,21 @@ impl Areas {
         };
         let least: Vec<f64> =
             normals.iter().flat_map(|normal| (0..around.len()).map(move |node| least(normal, node))).collect();
-        let mut areas = Self { faces, shares: mesh.face_shares(), areas: least.clone(), least, normals };
+        let mut areas = Self { element, faces, nodes, shares, areas: least.clone(), least, normals };
         areas.update(&vec![[0.0f64; 3]; around.len()]);
         areas
     }
 
     /// Takes the directions of the faces at displacements, m.
     pub fn update<T: Real>(&mut self, u: &[[T; 3]]) {
-        let Self { faces, shares, normals, least, areas } = self;
+        let Self { element, faces, nodes, shares, normals, least, areas } = self;
         areas.fill(0.0);
-        for face in faces {
-            let normal = face.normal(u);
+        for (face, nodes) in faces.iter().zip(nodes.chunks_exact(shares.len())) {
+            let now = |k: usize| face.rest[k] + Vector3::from(u[nodes[k]].map(|u| u.as_f64()));
+            let normal = element.area_vector(now).try_normalize(0.0).unwrap_or_default();
             for (plane, areas) in normals.iter().zip(areas.chunks_exact_mut(u.len().max(1))) {
                 let facing = face.area * f64::max(0.0, -normal.dot(plane));
-                face.nodes.iter().zip(*shares).for_each(|(&node, share)| areas[node] += share * facing);
+                nodes.iter().zip(&*shares).for_each(|(&node, share)| areas[node] += share * facing);
             }
         }
         for (area, &least) in areas.iter_mut().zip(&*least) {
@@ -92,39 +97,23 @@ impl Areas {
 
     /// Memory, bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.areas[..]) + size_of_val(&self.least[..]) + size_of_val(&self.faces[..])
+        size_of_val(&self.areas[..])
+            + size_of_val(&self.least[..])
+            + size_of_val(&self.faces[..])
+            + size_of_val(&self.nodes[..])
     }
 }
 
-impl Face {
-    /// Outward unit normal at displacements; zero for a face without area.
-    fn normal<T: Real>(&self, u: &[[T; 3]]) -> Vector3<f64> {
-        let [a, b, c] = [0, 1, 2].map(|k| self.rest[k] + Vector3::from(u[self.nodes[k]].map(|u| u.as_f64())));
-        let edge = b - a;
-        let normal = if self.is_edge { Vector3::new(edge.y, -edge.x, 0.0) } else { edge.cross(&(c - a)) };
-        normal.try_normalize(0.0).unwrap_or_default()
-    }
-}
-
-/// The faces of the boundary, outward by their orientation.
-fn faces(body: &Body, numbering: &Numbering) -> Vec<Face> {
+/// The faces of the boundary, outward by their orientation, and their nodes.
+fn faces(body: &Body, numbering: &Numbering) -> (Vec<Face>, Vec<usize>) {
     let mesh = &body.shape.mesh;
-    let mut node_of = vec![0; mesh.vertices().len()];
-    numbering.mesh_node.iter().enumerate().for_each(|(node, &mesh_node)| node_of[mesh_node as usize] = node);
-    let face = |nodes: &[usize]| {
-        // The third node of a straight edge is its second one, without a share.
-        let nodes_of_mesh = [nodes[0], nodes[1], *nodes.get(2).unwrap_or(&nodes[1])];
-        Face {
-            nodes: nodes_of_mesh.map(|node| node_of[node]),
-            rest: nodes_of_mesh.map(|node| mesh.vertices()[node]),
-            area: mesh.area(nodes),
-            is_edge: mesh.is_flat(),
-        }
+    let faces = body.shape.faces();
+    let face = |nodes: &Vec<usize>| {
+        let corner = |k: usize| mesh.vertices()[nodes[k.min(mesh.dimension() - 1)]];
+        Face { rest: [0, 1, 2].map(corner), area: mesh.area(nodes) }
     };
-    match mesh.is_flat() {
-        true => mesh.outline().iter().map(|edge| face(edge)).collect(),
-        false => body.shape.boundary.iter().map(|triangle| face(&triangle[..])).collect(),
-    }
+    let nodes = faces.iter().flatten().map(|&node| numbering.engine_node[node] as usize).collect();
+    (faces.iter().map(face).collect(), nodes)
 }
 
 /// A section through the elements around each node of the mesh, m²: with a law that allows inversion, inner nodes can reach a plane.
@@ -139,7 +128,7 @@ fn sections(body: &Body) -> Vec<f64> {
 
 /// The directions in which each node of the mesh is constrained at all times.
 fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
-    let mut constrained = vec![[false, false, body.shape.mesh.is_flat()]; body.shape.mesh.vertices().len()];
+    let mut constrained = vec![body.shape.mesh.fixed_directions(); body.shape.mesh.vertices().len()];
     for condition in body.dirichlet.iter().filter(|condition| condition.until.is_none()) {
         for &node in &condition.nodes {
             let before = constrained[node];

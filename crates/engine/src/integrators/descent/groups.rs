@@ -1,71 +1,19 @@
 //! The elements of a body around its nodes, grouped by material.
 
-use std::ops::Range;
-
-use fem_model::BodyMesh;
-
 use super::nodes::NodeBatches;
-use super::patches::Patches;
-use super::search::Change;
-use super::sums::Sums;
+use super::patches::{Group, Patches};
 use crate::model::system::System;
 use fem_elements::Real;
 
-/// The elements of one material around the nodes.
-pub(super) enum Group<T: Real> {
-    Tetrahedra(Patches<T, 3>),
-    Triangles(Patches<T, 2>),
-}
-
-/// Evaluates an expression for the elements of a group.
-macro_rules! with_group {
-    ($group:expr, $name:ident => $value:expr) => {
-        match $group {
-            Group::Tetrahedra($name) => $value,
-            Group::Triangles($name) => $value,
-        }
-    };
-}
-
-impl<T: Real> Group<T> {
-    /// The elements of a material.
-    pub fn new(system: &System<T>, material: usize, nodes: &NodeBatches<T>) -> Self {
-        let numbers = system.elements.numbers(material);
-        match &system.shape.mesh {
-            BodyMesh::Solid(mesh) => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &mesh.elements[number]));
-                Self::Tetrahedra(Patches::new(system, material, &corners, &numbers, nodes))
-            }
-            BodyMesh::Flat { triangles, .. } => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &triangles.elements[number]));
-                Self::Triangles(Patches::new(system, material, &corners, &numbers, nodes))
-            }
-            BodyMesh::Quadratic { .. } => unreachable!("quadratic elements are refused when the scene is loaded"),
-        }
-    }
-
-    /// Adds gradient and block of the elements' energy to the sums of the batches of a colour.
-    pub fn add_sums(
-        &self,
-        system: &System<T>,
-        nodes: &NodeBatches<T>,
-        color: &Range<usize>,
-        u: &[[T; 3]],
-        sums: &mut [Sums<T::Lanes>],
-    ) {
-        with_group!(self, patches => patches.add_sums(system, nodes, color, u, sums));
-    }
-
-    /// Adds the changes of the elements' energy at these batches as their nodes move.
-    pub fn add_changes(
-        &self,
-        system: &System<T>,
-        nodes: &NodeBatches<T>,
-        batches: &[usize],
-        u: &[[T; 3]],
-        changes: &mut [Change<T>],
-    ) {
-        with_group!(self, patches => patches.add_changes(system, nodes, batches, u, changes));
+/// The elements of a material around the nodes.
+pub(super) fn group<T: Real>(system: &System<T>, material: usize, nodes: &NodeBatches<T>) -> Box<dyn Group<T>> {
+    let mesh = &system.shape.mesh;
+    if let Some(tetrahedra) = mesh.arrays::<4>() {
+        Box::new(Patches::<T, 3>::new(system, material, tetrahedra, nodes))
+    } else if let Some(triangles) = mesh.arrays::<3>() {
+        Box::new(Patches::<T, 2>::new(system, material, triangles, nodes))
+    } else {
+        unreachable!("quadratic elements are refused when the scene is loaded")
     }
 }
 

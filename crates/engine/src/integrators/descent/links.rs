@@ -1,10 +1,10 @@
-//! Springs and anchor springs at the nodes of a colour.
+//! Springs between nodes and drag springs at the nodes of a colour.
 
 use super::nodes::NodeBatches;
 use super::search::{Change, magnitude};
 use super::sums::{Sums, UPPER};
 use crate::forces::HessianKind;
-use crate::forces::anchors::Anchors;
+use crate::forces::drag::DragSprings;
 use crate::forces::springs::Spring;
 use fem_elements::Real;
 use fem_elements::number::Number;
@@ -14,9 +14,9 @@ pub(super) struct Links<T: Real> {
     springs: Vec<Spring<T>>,
     /// Ends of the springs in each colour.
     ends: Vec<Vec<End>>,
-    /// Node of each anchor spring, and the displacement at which it is at rest, m.
-    anchors: Vec<(usize, [T; 3])>,
-    /// Stiffness of the anchor springs, N/m.
+    /// Node of each drag spring, and the displacement at which it is at rest, m.
+    drag: Vec<(usize, [T; 3])>,
+    /// Stiffness of the drag springs, N/m.
     stiffness: T,
 }
 
@@ -43,14 +43,14 @@ impl<T: Real> Links<T> {
                 }
             }
         }
-        Self { springs, ends, anchors: Vec::new(), stiffness: T::default() }
+        Self { springs, ends, drag: Vec::new(), stiffness: T::default() }
     }
 
-    /// Takes the anchor springs at the end of a step, s.
-    pub fn begin_step(&mut self, anchors: &Anchors, end: f64) {
-        self.stiffness = T::of(anchors.interaction.stiffness);
-        self.anchors.clear();
-        self.anchors.extend(anchors.springs(end));
+    /// Takes the drag springs at the end of a step, s.
+    pub fn begin_step(&mut self, drag: &DragSprings, end: f64) {
+        self.stiffness = T::of(drag.interaction.stiffness);
+        self.drag.clear();
+        self.drag.extend(drag.springs(end));
     }
 
     /// Adds gradients and blocks at the nodes of a colour.
@@ -69,7 +69,7 @@ impl<T: Real> Links<T> {
             }
             add(&mut sums[batch - range.start], lane, gradient, |i, k| H[i][k], sharpness);
         }
-        for &(node, target) in &self.anchors {
+        for &(node, target) in &self.drag {
             let (batch, lane) = nodes.places[node];
             if range.contains(&(batch as usize)) {
                 let k = self.stiffness;
@@ -103,7 +103,7 @@ impl<T: Real> Links<T> {
             u[node] = start;
             changes[place].add(lane, after - before, after + before);
         }
-        for &(node, target) in &self.anchors {
+        for &(node, target) in &self.drag {
             let (batch, lane) = nodes.places[node];
             let Some(place) = find(batch as usize) else { continue };
             let step = changes[place].in_lane(lane as usize);

@@ -5,9 +5,10 @@ use rayon::prelude::*;
 
 use super::chebyshev::Chebyshev;
 use super::coloring::color_nodes;
-use super::groups::{Group, corners};
+use super::groups::{corners, group};
 use super::links::Links;
 use super::nodes::{BATCHES_FOR_THREADS, CHUNK, NodeBatches};
+use super::patches::Group;
 use super::search::{Change, HALVINGS};
 use super::solve::{Inertia, Steps, StepsOf, inverse_block};
 use super::sums::Sums;
@@ -21,7 +22,7 @@ pub struct Descent<T: Real> {
     /// Displacements that inertia and dead loads alone would give, m.
     inertial: Vec<[T; 3]>,
     nodes: NodeBatches<T>,
-    groups: Vec<Group<T>>,
+    groups: Vec<Box<dyn Group<T>>>,
     links: Links<T>,
     acceleration: Option<Chebyshev<T>>,
     /// Of the batches of one colour.
@@ -41,7 +42,7 @@ impl<T: Real> Descent<T> {
         let mut elements_of = vec![0; system.nodes()];
         corners.iter().flatten().for_each(|&node| elements_of[node as usize] += 1);
         let nodes = NodeBatches::new(system.nodes(), color_nodes(system.nodes(), &cliques), &elements_of);
-        let groups = (0..system.elements.materials()).map(|material| Group::new(system, material, &nodes)).collect();
+        let groups = (0..system.elements.materials()).map(|material| group(system, material, &nodes)).collect();
         let most = nodes.largest_color();
         let nowhere = Steps { step: [T::Lanes::zero(); 3], is_doubtful: false };
         let radius = settings.acceleration.filter(|radius| *radius > 0.0);
@@ -164,7 +165,7 @@ impl<T: Real> Relaxation<T> for Descent<T> {
 
     fn begin_step(&mut self, step: StepOf<T>, u: &[[T; 3]]) {
         self.inertial.copy_from_slice(u);
-        self.links.begin_step(&step.system.forces.anchors, step.times[1]);
+        self.links.begin_step(&step.system.forces.drag, step.times[1]);
         if let Some(acceleration) = &mut self.acceleration {
             acceleration.restart(u);
         }

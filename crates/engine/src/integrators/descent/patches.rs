@@ -28,19 +28,43 @@ pub(super) struct Patches<T: Real, const E: usize> {
     starts: Vec<usize>,
 }
 
+/// Patches of either kind of elements.
+pub(super) trait Group<T: Real>: Send + Sync {
+    /// Adds gradient and block of the elements' energy to the sums of the batches of a colour.
+    fn add_sums(
+        &self,
+        system: &System<T>,
+        nodes: &NodeBatches<T>,
+        color: &Range<usize>,
+        u: &[[T; 3]],
+        sums: &mut [Sums<T::Lanes>],
+    );
+
+    /// Adds the changes of the elements' energy at these batches as their nodes move.
+    fn add_changes(
+        &self,
+        system: &System<T>,
+        nodes: &NodeBatches<T>,
+        batches: &[usize],
+        u: &[[T; 3]],
+        changes: &mut [Change<T>],
+    );
+}
+
 impl<T: Real, const E: usize> Patches<T, E> {
-    /// Patches of the elements of a material, which have these nodes, in the engine's numbering, and numbers in the mesh.
+    /// Patches of those elements of the mesh that have a material.
     pub fn new<const N: usize>(
         system: &System<T>,
         material: usize,
-        corners: &[[u32; N]],
-        numbers: &[usize],
+        elements: &[[usize; N]],
         nodes: &NodeBatches<T>,
     ) -> Self {
         assert_eq!(N, E + 1, "an element around a node has {E} other nodes");
+        let numbers = system.elements.numbers(material);
+        let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
         let shapes: Vec<_> =
-            corners.iter().zip(numbers).map(|(c, &number)| shape(system, c, system.elements.factor(number))).collect();
-        let (first, around) = cliques_of_nodes(system.nodes(), corners);
+            corners.iter().zip(&numbers).map(|(c, &number)| shape(system, c, system.elements.factor(number))).collect();
+        let (first, around) = cliques_of_nodes(system.nodes(), &corners);
         let mut new = Self { material, slots: Vec::new(), others: Vec::new(), starts: vec![0] };
         for batch in 0..nodes.filled.len() {
             let of_batch = nodes.of_batch(batch);
@@ -74,9 +98,10 @@ impl<T: Real, const E: usize> Patches<T, E> {
         }
         new
     }
+}
 
-    /// Adds gradient and block of the elements' energy to the sums of the batches of a colour.
-    pub fn add_sums(
+impl<T: Real, const E: usize> Group<T> for Patches<T, E> {
+    fn add_sums(
         &self,
         system: &System<T>,
         nodes: &NodeBatches<T>,
@@ -87,8 +112,7 @@ impl<T: Real, const E: usize> Patches<T, E> {
         system.elements.law_in_lanes(self.material).run(SumsOfColor { patches: self, nodes, color, u, sums });
     }
 
-    /// Adds the changes of the elements' energy at these batches as their nodes move.
-    pub fn add_changes(
+    fn add_changes(
         &self,
         system: &System<T>,
         nodes: &NodeBatches<T>,

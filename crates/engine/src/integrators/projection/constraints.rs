@@ -1,10 +1,8 @@
 //! The constraints of a body, which a sweep corrects one after the other.
 
-use fem_model::BodyMesh;
-
-use super::anchor_constraints::AnchorConstraints;
 use super::distances::Distances;
-use super::elements::Elements;
+use super::drag_constraints::DragConstraints;
+use super::elements::{Elements, Group};
 use super::rule::{Rule, Sweep};
 use crate::forces::springs::Spring;
 use crate::integrators::relaxation::{PlaneContacts, Relaxation, StepOf};
@@ -14,40 +12,24 @@ use fem_elements::Real;
 /// The constraints of a body.
 pub struct Constraints<T: Real> {
     rule: Rule,
-    groups: Vec<Group<T>>,
+    groups: Vec<Box<dyn Group<T>>>,
     distances: Distances<T>,
-    anchors: AnchorConstraints<T>,
-}
-
-/// The elements of one material.
-enum Group<T: Real> {
-    Tetrahedra(Elements<T, 4>),
-    Triangles(Elements<T, 3>),
-}
-
-/// Evaluates an expression for the elements of a group.
-macro_rules! with_group {
-    ($group:expr, $name:ident => $value:expr) => {
-        match $group {
-            Group::Tetrahedra($name) => $value,
-            Group::Triangles($name) => $value,
-        }
-    };
+    drag: DragConstraints<T>,
 }
 
 impl<T: Real> Constraints<T> {
     /// Constraints for all elements of a body, and for these springs.
     pub fn new(system: &System<T>, springs: &[Spring<T>], rule: Rule) -> Self {
-        let groups = (0..system.elements.materials()).map(|material| Group::new(system, material)).collect();
+        let groups = (0..system.elements.materials()).map(|material| group(system, material)).collect();
         let distances = Distances::new(system.nodes(), springs);
-        Self { rule, groups, distances, anchors: AnchorConstraints::new() }
+        Self { rule, groups, distances, drag: DragConstraints::new() }
     }
 }
 
 impl<T: Real> Relaxation<T> for Constraints<T> {
     fn set_masses(&mut self, inverse_masses: &[[T; 3]]) {
         for group in &mut self.groups {
-            with_group!(group, elements => elements.set_masses(inverse_masses));
+            group.set_masses(inverse_masses);
         }
     }
 
@@ -56,39 +38,34 @@ impl<T: Real> Relaxation<T> for Constraints<T> {
     }
 
     fn begin_step(&mut self, step: StepOf<T>, _u: &[[T; 3]]) {
-        self.groups.iter_mut().for_each(|group| with_group!(group, elements => elements.begin_step()));
+        self.groups.iter_mut().for_each(|group| group.begin_step());
         self.distances.begin_step();
-        self.anchors.begin_step(&step.system.forces.anchors, step.times[1]);
+        self.drag.begin_step(&step.system.forces.drag, step.times[1]);
     }
 
     fn sweep(&mut self, step: StepOf<T>, contacts: Option<&mut PlaneContacts>, u: &mut [[T; 3]]) {
-        let Self { rule, groups, distances, anchors } = self;
+        let Self { rule, groups, distances, drag } = self;
         let StepOf { system, particles, dt2, .. } = step;
         let (sweep, masses) = (Sweep { rule: *rule, dt2 }, &particles.inverse_masses);
         for group in groups {
-            system.profile.forces.time(|| with_group!(group, elements => elements.sweep(system, sweep, u)));
+            system.profile.forces.time(|| group.sweep(system, sweep, u));
         }
         distances.sweep(sweep, masses, u);
-        system.forces.anchors_timer.time(|| anchors.sweep(dt2, masses, u));
+        system.forces.drag_timer.time(|| drag.sweep(dt2, masses, u));
         if let Some(contacts) = contacts {
             contacts.sweep(step.of_contacts(), u);
         }
     }
 }
 
-impl<T: Real> Group<T> {
-    fn new(system: &System<T>, material: usize) -> Self {
-        let numbers = system.elements.numbers(material);
-        match &system.shape.mesh {
-            BodyMesh::Solid(mesh) => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &mesh.elements[number]));
-                Self::Tetrahedra(Elements::new(system, material, &corners, &numbers))
-            }
-            BodyMesh::Flat { triangles, .. } => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &triangles.elements[number]));
-                Self::Triangles(Elements::new(system, material, &corners, &numbers))
-            }
-            BodyMesh::Quadratic { .. } => unreachable!("quadratic elements are refused when the scene is loaded"),
-        }
+/// The constraints of the elements of a material.
+fn group<T: Real>(system: &System<T>, material: usize) -> Box<dyn Group<T>> {
+    let mesh = &system.shape.mesh;
+    if let Some(tetrahedra) = mesh.arrays::<4>() {
+        Box::new(Elements::new(system, material, tetrahedra))
+    } else if let Some(triangles) = mesh.arrays::<3>() {
+        Box::new(Elements::new(system, material, triangles))
+    } else {
+        unreachable!("quadratic elements are refused when the scene is loaded")
     }
 }

@@ -33,10 +33,24 @@ pub(super) struct Elements<T: Real, const N: usize> {
     moves: Vec<[[T::Lanes; 3]; N]>,
 }
 
+/// Constraints of either kind of elements.
+pub(super) trait Group<T: Real>: Send {
+    /// Takes the inverse masses of the nodes.
+    fn set_masses(&mut self, inverse_masses: &[[T; 3]]);
+
+    /// Sets the multipliers to zero: a step starts.
+    fn begin_step(&mut self);
+
+    /// Corrects the nodes of all elements, colour after colour.
+    fn sweep(&mut self, system: &System<T>, sweep: Sweep, u: &mut [[T; 3]]);
+}
+
 impl<T: Real, const N: usize> Elements<T, N> {
-    /// The constraints of the elements of a material, which have these nodes, in the engine's numbering, and numbers in the mesh.
-    pub fn new(system: &System<T>, material: usize, corners: &[[u32; N]], numbers: &[usize]) -> Self {
-        let coloring = color(system.nodes(), corners);
+    /// The constraints of those elements of the mesh that have a material.
+    pub fn new(system: &System<T>, material: usize, elements: &[[usize; N]]) -> Self {
+        let numbers = system.elements.numbers(material);
+        let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
+        let coloring = color(system.nodes(), &corners);
         let mut new =
             Self { material, corners: Vec::new(), batches: Vec::new(), colors: Vec::new(), moves: Vec::new() };
         for range in coloring.colors {
@@ -59,9 +73,10 @@ impl<T: Real, const N: usize> Elements<T, N> {
         new.moves = vec![[[T::Lanes::zero(); 3]; N]; most];
         new
     }
+}
 
-    /// Takes the inverse masses of the nodes.
-    pub fn set_masses(&mut self, inverse_masses: &[[T; 3]]) {
+impl<T: Real, const N: usize> Group<T> for Elements<T, N> {
+    fn set_masses(&mut self, inverse_masses: &[[T; 3]]) {
         for (batch, corners) in self.batches.iter_mut().zip(self.corners.chunks_exact(T::WIDTH)) {
             for a in 0..N {
                 for i in 0..3 {
@@ -74,13 +89,11 @@ impl<T: Real, const N: usize> Elements<T, N> {
         }
     }
 
-    /// Sets the multipliers to zero: a step starts.
-    pub fn begin_step(&mut self) {
+    fn begin_step(&mut self) {
         self.batches.iter_mut().for_each(|batch| batch.multiplier = zero());
     }
 
-    /// Corrects the nodes of all elements, colour after colour.
-    pub fn sweep(&mut self, system: &System<T>, sweep: Sweep, u: &mut [[T; 3]]) {
+    fn sweep(&mut self, system: &System<T>, sweep: Sweep, u: &mut [[T; 3]]) {
         let solids = &system.elements;
         solids.law_in_lanes(self.material).run(ColorsOf { elements: self, sweep, u });
     }

@@ -4,11 +4,11 @@
 //! Müller and Chentanez, XPBD: position-based simulation of compliant constrained dynamics (2016). [`Rule`] is the difference between the
 //! methods. Constraints of elements are coloured, so that the result does not depend on the number of threads.
 
-mod anchor_constraints;
 mod batch;
 mod coloring;
 mod constraints;
 mod distances;
+mod drag_constraints;
 mod elements;
 mod kernel;
 mod rule;

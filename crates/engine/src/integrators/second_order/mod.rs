@@ -5,6 +5,7 @@
 //! end of a step, whatever the stage.
 
 mod advance;
+mod bathe;
 mod bdf2;
 mod coefficients;
 mod error;
@@ -13,10 +14,10 @@ mod generalized_alpha;
 mod history;
 mod implicit_midpoint;
 mod newmark;
-mod scheme;
 mod start;
 
 use fem_model::simulation::{Cause, Counters, History};
+use fem_model::{Integrator as Kind, Method, NewmarkParameters};
 
 use super::followers::Followers;
 use super::{Convergence, Integrator, LastStage, Memory};
@@ -25,11 +26,87 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
 use crate::solvers::Solver;
+use coefficients::Coefficients;
 use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
 use history::Known;
-pub use scheme::Scheme;
 use start::Start;
+
+/// A method of this family.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scheme {
+    /// The implicit midpoint rule.
+    ImplicitMidpoint,
+    /// Newmark's method.
+    Newmark(NewmarkParameters),
+    /// The generalized-α method with its spectral radius ρ∞.
+    GeneralizedAlpha(f64),
+    /// The backward differentiation formula.
+    Bdf2,
+    /// Bathe's method.
+    Bathe,
+}
+
+impl Scheme {
+    /// The method that a scene names; `None` if it belongs to another family.
+    pub fn new(kind: Kind, method: &Method) -> Option<Self> {
+        match kind {
+            Kind::ImplicitMidpoint => Some(Self::ImplicitMidpoint),
+            Kind::Newmark => Some(Self::Newmark(method.newmark)),
+            Kind::GeneralizedAlpha => Some(Self::GeneralizedAlpha(method.rho_inf)),
+            Kind::Bdf2 => Some(Self::Bdf2),
+            Kind::Bathe => Some(Self::Bathe),
+            _ => None,
+        }
+    }
+
+    /// Coefficients of a step of `dt` seconds after one of `before` seconds; `None` for a step that has two stages.
+    pub(super) fn coefficients(self, dt: f64, before: Option<f64>) -> Option<Coefficients> {
+        match self {
+            Self::ImplicitMidpoint => Some(implicit_midpoint::coefficients(dt)),
+            Self::Newmark(parameters) => Some(newmark::coefficients(parameters, dt)),
+            Self::GeneralizedAlpha(rho_inf) => Some(generalized_alpha::coefficients(rho_inf, dt)),
+            Self::Bdf2 => before.map(|before| bdf2::coefficients(dt, dt / before)),
+            Self::Bathe => None,
+        }
+    }
+
+    /// (1 − γ/2β)²: from an initial acceleration a₀ of vibrations faster than the step, the velocity 1 − γ/2β times dt a₀ remains. Zero for
+    /// methods without that, and for those that are not stable at such steps.
+    pub(super) fn overshoot(self) -> f64 {
+        let parameters = match self {
+            Self::Newmark(parameters) if parameters.is_unconditionally_stable() => parameters,
+            Self::GeneralizedAlpha(rho_inf) => generalized_alpha::parameters(rho_inf),
+            _ => return 0.0,
+        };
+        (1.0 - parameters.gamma / (2.0 * parameters.beta)).powi(2)
+    }
+
+    pub(super) fn has_acceleration(self) -> bool {
+        matches!(self, Self::Newmark(_) | Self::GeneralizedAlpha(_) | Self::Bathe)
+    }
+
+    /// |C| of the local error C dt³ u‴ of the displacements of a step with this ratio to the one before, small vibrations assumed.
+    ///
+    /// Newmark: Zienkiewicz, Xie, A Simple Error Estimator and Adaptive Time Stepping Procedure for Dynamic Analysis (1991); in the
+    /// generalized-α method accelerations are those of (α_f − α_m) dt before. BDF2: Hairer, Nørsett, Wanner, Solving Ordinary
+    /// Differential Equations I (1993), III.5.
+    fn error_constant(self, ratio: Option<f64>) -> f64 {
+        match (self, ratio) {
+            (Self::ImplicitMidpoint, _) => 1.0 / 12.0,
+            (Self::Newmark(parameters), _) => parameters.beta - 1.0 / 6.0,
+            (Self::GeneralizedAlpha(rho_inf), _) => {
+                let (alpha_m, alpha_f) = ((2.0 * rho_inf - 1.0) / (rho_inf + 1.0), rho_inf / (rho_inf + 1.0));
+                0.25 * (1.0 - alpha_m + alpha_f).powi(2) - 1.0 / 6.0 - 0.5 * (alpha_f - alpha_m)
+            }
+            (Self::Bdf2, Some(r)) => (1.0 + r).powi(2) / (6.0 * r * (1.0 + 2.0 * r)),
+            // 1/6 − 3γ² + 2γ³ of Alexander's method, γ = 1 − 1/√2.
+            (Self::Bdf2, None) => 0.0404,
+            // (3γ² − 4γ + 2)/(12 (2 − γ)) of TR-BDF2, γ = 2 − √2.
+            (Self::Bathe, _) => 0.0404,
+        }
+    }
+}
 
 /// An implicit method of second order with its solver and vectors.
 pub struct SecondOrder<T: Real> {
@@ -40,6 +117,8 @@ pub struct SecondOrder<T: Real> {
     /// State of earlier steps that this step needs, and the state for the next step.
     known: Known<T>,
     next: Known<T>,
+    /// The same at the stage of a step that has two; empty for methods without.
+    middle: Known<T>,
     inertial: Vec<[T; 3]>,
     still: Vec<[T; 3]>,
     stiffness_at: Vec<[T; 3]>,
@@ -63,8 +142,9 @@ impl<T: Real> SecondOrder<T> {
     pub fn new(scheme: Scheme, newton: Newton<T>, system: &System<T>, estimates: bool) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
         let may_settle = scheme.has_acceleration() && (system.is_damped() || scheme.overshoot() > 0.0);
-        let has_step = scheme == Scheme::Bdf2 || may_settle;
+        let has_step = matches!(scheme, Scheme::Bdf2 | Scheme::Bathe) || may_settle;
         let known = Known::new(system.nodes(), [scheme.has_acceleration(), has_step, estimates]);
+        let middle = if scheme == Scheme::Bathe { known.clone() } else { Known::default() };
         Self {
             scheme,
             newton,
@@ -72,6 +152,7 @@ impl<T: Real> SecondOrder<T> {
             start: Start::new(system),
             next: known.clone(),
             known,
+            middle,
             inertial: zero(),
             still: zero(),
             stiffness_at: zero(),
@@ -118,6 +199,28 @@ impl<T: Real> SecondOrder<T> {
             known.age = Some(0.0);
         }
         Ok(())
+    }
+}
+
+impl<T: Real> SecondOrder<T> {
+    /// A step of Bathe's method. The state for this step stays, since the step may be repeated.
+    fn two_stages(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        let (time, part) = (state.time, bathe::STAGE * dt);
+        let (stage, end) = (Moment::at(time + part), Moment::at(time + dt));
+        let first = self.advance(system, state, (part, stage), &bathe::first_stage(dt), counters)?;
+        std::mem::swap(&mut self.known, &mut self.middle);
+        std::mem::swap(&mut self.known, &mut self.next);
+        state.time = time + part;
+        let second = self.advance(system, state, (dt - part, end), &bathe::second_stage(dt), counters);
+        state.time = time;
+        std::mem::swap(&mut self.known, &mut self.middle);
+        Ok(if second? == Convergence::Converged { first } else { Convergence::NotConverged })
     }
 }
 
@@ -168,10 +271,11 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
             self.before.copy_from_slice(&state.v);
         }
         let convergence = match self.scheme.coefficients(dt, before) {
-            Some(_) if self.scheme.has_acceleration() && !self.known.has_acceleration => {
+            _ if self.scheme.has_acceleration() && !self.known.has_acceleration => {
                 self.settle(system, state, dt, counters)?
             }
             Some(of) => self.advance(system, state, (dt, end), &of, counters)?,
+            None if self.scheme == Scheme::Bathe => self.two_stages(system, state, dt, counters)?,
             None => self.first_step(system, state, dt, counters)?,
         };
         if self.estimates {

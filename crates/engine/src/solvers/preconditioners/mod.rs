@@ -7,16 +7,33 @@ mod lower_half;
 mod multigrid;
 mod ssor;
 
-pub(super) use block_jacobi::BlockJacobi;
+use block_jacobi::BlockJacobi;
 pub(super) use identity::Identity;
-pub(super) use multigrid::Multigrid;
-pub(super) use ssor::Ssor;
+use multigrid::Multigrid;
+use ssor::Ssor;
 #[cfg(feature = "gpu")]
 pub(super) use {coarse::Coarse, lower_half::LowerHalf};
 
+use std::sync::Arc;
+
+use super::ApproximateInverse;
 use fem_elements::Real;
-use fem_elements::sparse::Block;
+use fem_elements::sparse::{Block, Pattern};
+use fem_model::Preconditioner;
 use fem_model::simulation::Breakdown;
+
+/// The preconditioner of that name for matrices of a pattern. `rest` holds the undeformed positions of the rows' nodes, m.
+pub(super) fn build<T: Real>(
+    kind: Preconditioner,
+    pattern: &Arc<Pattern>,
+    rest: &[[f64; 3]],
+) -> Box<dyn ApproximateInverse<T>> {
+    match kind {
+        Preconditioner::BlockJacobi => Box::new(BlockJacobi::new(pattern)),
+        Preconditioner::Multigrid => Box::new(Multigrid::new(pattern, rest)),
+        Preconditioner::Ssor => Box::new(Ssor::new(pattern, rest)),
+    }
+}
 
 /// The factor that scales the largest diagonal entry of a positive definite matrix to 1, into the range of single precision.
 /// `diagonal` holds the number of each diagonal block.

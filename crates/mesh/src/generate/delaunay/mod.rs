@@ -18,7 +18,7 @@ use crate::Mesh;
 pub(crate) use plane::triangulate_with;
 pub use plane::{triangulate, triangulate_region};
 pub(crate) use refinement::{Bounds, cut_encroached, refine};
-pub use tetrahedra::{tetrahedralize, tetrahedralize_with};
+pub use tetrahedra::tetrahedralize;
 
 /// The Delaunay mesh of points.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,31 +31,21 @@ pub struct Delaunay<const D: usize, const N: usize> {
 
 /// Reason why points have no Delaunay mesh.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum DelaunayError {
     /// A coordinate is NaN, infinite or out of range.
     #[error(
         "point {point} (counted from 0) has a coordinate that is not finite, or beyond 3e60 in size; give it a finite position"
     )]
-    NotFinite {
-        /// Counted from 0.
-        point: usize,
-    },
+    NotFinite { point: usize },
     /// All points lie in one plane, or on one line in two dimensions.
     #[error("all {points} points lie {in_what}; add a point outside of it")]
-    Flat {
-        /// Number of points.
-        points: usize,
-        /// `in one plane`, or `on one line`.
-        in_what: &'static str,
-    },
+    Flat { points: usize, in_what: &'static str },
     /// Polygons cross or touch each other or themselves.
     #[error(
         "the edge from point {} to point {} (counted from 0) crosses or touches another edge or point; part the polygons there", points[0], points[1]
     )]
-    Crossing {
-        /// Ends of the edge, or two points at one place; counted from 0.
-        points: [usize; 2],
-    },
+    Crossing { points: [usize; 2] },
 }
 
 /// The points with coordinates for which the predicates neither overflow nor underflow: those below 2⁻¹⁴² in size become zero, and those

@@ -12,7 +12,8 @@ use crate::generate::Progress;
 /// Times that the progress is told.
 const TOLD: usize = 200;
 
-/// The Delaunay tetrahedralization of points, m. Where five and more points lie on an empty sphere, one of the possible ones.
+/// The Delaunay tetrahedralization of points, m. Where five and more points lie on an empty sphere, one of the possible ones. Tells how
+/// many of the points are inserted.
 ///
 /// # Errors
 /// A coordinate that is not finite, or points in one plane.
@@ -22,20 +23,12 @@ const TOLD: usize = 200;
 /// use nalgebra::Vector3;
 ///
 /// let corners = (0..8).map(|i| Vector3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64));
-/// let cube = tetrahedralize(&corners.collect::<Vec<_>>())?.mesh;
+/// let cube = tetrahedralize(&corners.collect::<Vec<_>>(), &|_| ())?.mesh;
 /// let volume: f64 = fem_mesh::volumes(&cube).iter().sum();
 /// assert!((volume - 1.0).abs() < 1e-14);
 /// # Ok::<(), fem_mesh::generate::delaunay::DelaunayError>(())
 /// ```
-pub fn tetrahedralize(points: &[Vector3<f64>]) -> Result<Delaunay<3, 4>, DelaunayError> {
-    tetrahedralize_with(points, &|_| ())
-}
-
-/// The tetrahedralization of [`tetrahedralize`], which tells how many of the points are inserted.
-///
-/// # Errors
-/// Those of [`tetrahedralize`].
-pub fn tetrahedralize_with(points: &[Vector3<f64>], progress: Progress) -> Result<Delaunay<3, 4>, DelaunayError> {
+pub fn tetrahedralize(points: &[Vector3<f64>], progress: Progress) -> Result<Delaunay<3, 4>, DelaunayError> {
     let points = &in_range(points)?;
     let order = insertion_order(points);
     let flat = DelaunayError::Flat { points: points.len(), in_what: "in one plane" };

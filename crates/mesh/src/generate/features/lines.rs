@@ -4,8 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::Vector3;
 
-use crate::connectivity::sorted;
-use crate::connectivity::{first_at_each_place, groups, sides_by_edge};
+use crate::connectivity::{first_at_each_place, groups, sides_by_edge, sorted};
 use crate::generate::Solid;
 use crate::{SurfaceMesh, area_vector};
 

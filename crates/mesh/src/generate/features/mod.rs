@@ -13,8 +13,7 @@ use nalgebra::Vector3;
 
 use super::odt::space::{Cells, Floor, Freedom, move_towards, raise_the_worst};
 use crate::boundary::FACES;
-use crate::connectivity::sorted;
-use crate::connectivity::{groups, sides_by_edge};
+use crate::connectivity::{groups, sides_by_edge, sorted};
 use crate::tidy::leave_out_unreferenced;
 use crate::{SurfaceMesh, TetrahedralMesh, boundary};
 use lines::Features;

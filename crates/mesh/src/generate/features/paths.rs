@@ -1,6 +1,6 @@
 //! Paths along the edges of a mesh's boundary that follow feature curves.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use nalgebra::Vector3;
@@ -87,8 +87,10 @@ impl<'a> Graph<'a> {
             return None;
         }
         let mut before: BTreeMap<u32, (f64, u32)> = BTreeMap::from([(from, (0.0, from))]);
-        let mut open = BinaryHeap::from([Open { length: 0.0, vertex: from }]);
-        while let Some(Open { length, vertex }) = open.pop() {
+        // The bits of lengths are in the order of the lengths.
+        let mut open = BinaryHeap::from([Reverse((0.0_f64.to_bits(), from))]);
+        while let Some(Reverse((bits, vertex))) = open.pop() {
+            let length = f64::from_bits(bits);
             if vertex == to {
                 break;
             }
@@ -107,7 +109,7 @@ impl<'a> Graph<'a> {
                 let new = length + (b - a).norm() * (1.0 + DISTANCE_WEIGHT * (off[0] + off[1]));
                 if before.get(&next).is_none_or(|known| new < known.0) {
                     before.insert(next, (new, vertex));
-                    open.push(Open { length: new, vertex: next });
+                    open.push(Reverse((new.to_bits(), next)));
                 }
             }
         }
@@ -140,26 +142,5 @@ impl<'a> Graph<'a> {
         }
         let whole = lengths[lengths.len() - 1];
         lengths.into_iter().map(|length| length / whole).collect()
-    }
-}
-
-/// A vertex that a path has reached; the shortest path is the greatest.
-#[derive(PartialEq)]
-struct Open {
-    length: f64,
-    vertex: u32,
-}
-
-impl Eq for Open {}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.length.total_cmp(&self.length).then(other.vertex.cmp(&self.vertex))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }

@@ -8,4 +8,4 @@ pub use improve::{ImprovedTriangles, NotManifold, improve_triangles};
 pub use plane::OdtStep;
 pub(crate) use plane::relax;
 pub use space::{Improved, Iteration};
-pub use space::{improve_inside, improve_inside_with, improve_tetrahedra, improve_tetrahedra_with};
+pub use space::{improve_inside, improve_tetrahedra};

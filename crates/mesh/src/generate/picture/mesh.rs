@@ -58,48 +58,25 @@ pub struct PictureMesh {
 
 /// Reason why a picture has no mesh.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum PictureMeshError {
     /// No pixel is inside.
     #[error("the picture has no region: no pixel is opaque (or dark); check the picture")]
     Empty,
     /// The edge or the height is no length.
     #[error("{what} of {length} m; give a length above 0")]
-    Length {
-        /// `an edge`, or `a height`.
-        what: &'static str,
-        /// m
-        length: f64,
-    },
+    Length { what: &'static str, length: f64 },
     /// The edge is longer than the region.
     #[error("an edge of {edge} m is longer than the region, which measures {} × {} m; take shorter edges", size[0], size[1])]
-    TooCoarse {
-        /// m
-        edge: f64,
-        /// Width and height of the region, m.
-        size: [f64; 2],
-    },
+    TooCoarse { edge: f64, size: [f64; 2] },
     /// Too many triangles.
     #[error(
         "with edges of {edge} m the region would have {count:.1e} triangles, and {most:.0e} is the most; take longer edges"
     )]
-    TooFine {
-        /// m
-        edge: f64,
-        /// Number of triangles.
-        count: f64,
-        /// Largest number of them.
-        most: f64,
-    },
+    TooFine { edge: f64, count: f64, most: f64 },
     /// The picture is no silhouette.
     #[error("the picture has {count} {what}, and {most} is the most; give it a plain background, or blur it")]
-    TooIntricate {
-        /// Number of them.
-        count: usize,
-        /// `contours`, or `places where a contour passes between two pixels`.
-        what: &'static str,
-        /// Largest number of them.
-        most: usize,
-    },
+    TooIntricate { count: usize, what: &'static str, most: usize },
 }
 
 /// Triangles inside the region of a picture, with about the edges of the options. Where the contour is curved or the region thin, edges are shorter,

@@ -33,23 +33,16 @@ const SIGNS: f64 = 0.8;
 /// # Errors
 /// Too many tetrahedra or none, and numbers that are not finite.
 pub fn stuff(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_graded(surface, edge, 0)
+    stuff_graded(surface, edge, 0, &|_| ())
 }
 
 /// Tetrahedra as those of [`stuff`] at the surface, and with edges that double up to `doublings` times towards the inside. The boundary and the
-/// bounds of the dihedral angles are those of [`stuff`].
+/// bounds of the dihedral angles are those of [`stuff`]. Tells how far it is: for most of the time, of how many nodes of the lattice it knows whether
+/// they are inside.
 ///
 /// # Errors
 /// As [`stuff`].
-pub fn stuff_graded(surface: &SurfaceMesh, edge: f64, doublings: usize) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_graded_with(surface, edge, doublings, &|_| ())
-}
-
-/// The tetrahedra of [`stuff_graded`]. Tells how far it is: for most of the time, of how many nodes of the lattice it knows whether they are inside.
-///
-/// # Errors
-/// As [`stuff`].
-pub fn stuff_graded_with(
+pub fn stuff_graded(
     surface: &SurfaceMesh,
     edge: f64,
     doublings: usize,

@@ -119,9 +119,7 @@ impl Cells {
 /// <numbers>`, and the two arrays `OFFSETS` and `CONNECTIVITY`, each with its type.
 fn read_cells(reader: &mut Reader) -> Result<Cells, MeshError> {
     let (count, size) = (reader.count("the number of cells")?, reader.count("the number of numbers")?);
-    let mut ahead = reader.clone();
-    if ahead.word().is_some_and(|word| word.eq_ignore_ascii_case("OFFSETS")) {
-        *reader = ahead;
+    if reader.takes("OFFSETS") {
         let kind = reader.expected("the type of the offsets")?;
         let mut ends = reader.integers(count, &kind)?;
         if ends.first().is_some_and(|first| *first != 0) {
@@ -168,20 +166,18 @@ fn read_attributes(
     fields: &mut Vec<Field>,
 ) -> Result<(), MeshError> {
     loop {
+        if reader.takes("FIELD") {
+            read_field(reader, content, Some((count, &mut *fields)))?;
+            continue;
+        }
+        if reader.takes("METADATA") {
+            reader.skip_paragraph();
+            continue;
+        }
         let mut ahead = reader.clone();
         let Some(keyword) = ahead.word() else { return Ok(()) };
         let keyword = keyword.to_ascii_uppercase();
         let components = match &keyword[..] {
-            "FIELD" => {
-                *reader = ahead;
-                read_field(reader, content, Some((count, &mut *fields)))?;
-                continue;
-            }
-            "METADATA" => {
-                *reader = ahead;
-                reader.skip_paragraph();
-                continue;
-            }
             "SCALARS" | "TEXTURE_COORDINATES" | "COLOR_SCALARS" | "LOOKUP_TABLE" | "GLOBAL_IDS" | "PEDIGREE_IDS" => 1,
             "VECTORS" | "NORMALS" => 3,
             "TENSORS" => 9,
@@ -197,9 +193,7 @@ fn read_attributes(
                     "" => 1,
                     _ => reader.count("the number of components")?,
                 };
-                let mut ahead = reader.clone();
-                if ahead.word().is_some_and(|word| word.eq_ignore_ascii_case("LOOKUP_TABLE")) {
-                    *reader = ahead;
+                if reader.takes("LOOKUP_TABLE") {
                     reader.expected("the name of the table")?;
                 }
                 keep_or_skip(reader, content, [components, count], &kind, name, Some(&mut *fields))?;

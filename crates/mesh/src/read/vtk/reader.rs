@@ -43,6 +43,14 @@ impl<'a> Reader<'a> {
         (!word.is_empty()).then(|| String::from_utf8_lossy(word).into_owned())
     }
 
+    /// Takes the next word if it is this keyword.
+    pub(super) fn takes(&mut self, keyword: &str) -> bool {
+        let mut ahead = self.clone();
+        let is_next = ahead.word().is_some_and(|word| word.eq_ignore_ascii_case(keyword));
+        self.at = if is_next { ahead.at } else { self.at };
+        is_next
+    }
+
     pub(super) fn expected(&mut self, expected: &'static str) -> Result<String, MeshError> {
         self.word().ok_or_else(|| self.error(Problem::Ends { expected }))
     }

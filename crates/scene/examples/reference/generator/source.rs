@@ -65,6 +65,7 @@ impl Source {
         paths.extend(
             [
                 "model/src/axis",
+                "model/src/fields",
                 "model/src/integrator",
                 "model/src/material",
                 "model/src/method",
@@ -131,24 +132,36 @@ impl Source {
     }
 }
 
-/// The text of a file with the structs of its macro `material!` written out after it. The list of parameters is that of fem-model.
+/// A macro that writes structs with a list: its name, the file of fem-model with the list, the fields in its text, and one of them.
+type Listed = (&'static str, &'static str, &'static str, fn(&str) -> String);
+
+const MACROS: [Listed; 2] = [
+    ("material", "material", "$($(#[$doc])* pub $name: Option<f64>,)*", |name| format!("pub {name}: Option<f64>,")),
+    ("scene", "fields", "$($(#[$doc])* pub $table: Option<fem_model::$Field>,)*", |entry| {
+        let (table, field) = entry.split_once(": ").unwrap_or((entry, ""));
+        format!("pub {table}: Option<{field}>,")
+    }),
+];
+
+/// The text of a file with the structs of one of [`MACROS`] written out after it.
 fn expanded(text: &str) -> Option<String> {
     fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a str> {
         Some(text.split_once(start)?.1.split_once(end)?.0)
     }
-    let body = between(text, "macro_rules! material {", "\n}\n")?;
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/src/material.rs");
-    let model = fs::read_to_string(&model).unwrap_or_else(|error| panic!("{}: {error}", model.display()));
-    let list = between(&model, "$callback! {\n", "\n        }\n")?;
-    let field = |line: &str| match line.trim().strip_suffix(',') {
-        Some(name) if !name.starts_with("///") => format!("pub {name}: Option<f64>,"),
-        _ => line.to_owned(),
-    };
-    let parameters = list.lines().map(field).collect::<Vec<_>>().join("\n");
-    let body = body.replace("$($(#[$doc])* pub $name: Option<f64>,)*", &parameters);
-    let (_, body) = body.split_once("=> {\n")?;
-    let structs: Vec<&str> = body.split("\n\n").filter(|item| item.contains("pub struct ")).collect();
-    Some([&[text], &structs[..]].concat().join("\n"))
+    MACROS.into_iter().find_map(|(name, file, fields, field)| {
+        let body = between(text, &format!("macro_rules! {name} {{"), "\n}\n")?;
+        let model = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../model/src/{file}.rs"));
+        let model = fs::read_to_string(&model).unwrap_or_else(|error| panic!("{}: {error}", model.display()));
+        let list = between(&model, "$callback! {\n", "\n        }\n")?;
+        let line = |line: &str| match line.trim().strip_suffix(',') {
+            Some(entry) if !entry.starts_with("///") => field(entry),
+            _ => line.to_owned(),
+        };
+        let body = body.replace(fields, &list.lines().map(line).collect::<Vec<_>>().join("\n"));
+        let (_, body) = body.split_once("=> {\n")?;
+        let structs: Vec<&str> = body.split("\n\n").filter(|item| item.contains("pub struct ")).collect();
+        Some([&[text], &structs[..]].concat().join("\n"))
+    })
 }
 
 /// A field's attributes of serde.

@@ -1,7 +1,7 @@
 //! Recovery of fields that are known.
 
 use super::*;
-use fem_mesh::{Pattern, TetrahedralMesh, box_mesh, quadratic, rectangle_mesh};
+use fem_mesh::{Pattern, TetrahedralMesh, box_mesh, rectangle_mesh};
 
 /// Moves the nodes inside a box or rectangle, the same way in every run.
 fn shaken(mut vertices: Vec<Vector3<f64>>, size: [f64; 3], by: f64) -> Vec<Vector3<f64>> {
@@ -22,12 +22,8 @@ fn bodies(cells: usize) -> [BodyMesh; 3] {
     solid.vertices = shaken(solid.vertices, [1.0; 3], by);
     let mut flat = rectangle_mesh([1.0, 1.0], cells, Pattern::Alternating).unwrap();
     flat.vertices = shaken(flat.vertices, [1.0, 1.0, 0.0], by);
-    let triangles = quadratic(flat.clone());
-    [
-        solid.into(),
-        BodyMesh::Flat { triangles: flat, thickness: 1.0 },
-        BodyMesh::Quadratic { triangles, thickness: 1.0 },
-    ]
+    let flat = BodyMesh::flat(flat, 1.0);
+    [solid.into(), flat.clone(), flat.of_order(2).unwrap()]
 }
 
 /// A field at all points of a body.
@@ -52,7 +48,7 @@ fn a_linear_stress_is_recovered_exactly_on_irregular_meshes_up_to_the_boundary()
         for mesh in bodies(cells) {
             // A single row of tetrahedra has its points in too few places.
             if cells > 1 {
-                assert!(error(&mesh, linear) < 1e-11, "{cells} {}: {:e}", mesh.kind(), error(&mesh, linear));
+                assert!(error(&mesh, linear) < 1e-11, "{cells} {}: {:e}", mesh.element().name, error(&mesh, linear));
             }
         }
     }
@@ -77,8 +73,8 @@ fn a_smooth_stress_is_recovered_with_an_error_of_second_order_and_averages_are_o
     for (coarse, fine) in [(coarse, fine), (flat, fine_flat)] {
         let order = (error(&coarse, field) / error(&fine, field)).log2();
         let of_averages = (averages(&coarse) / averages(&fine)).log2();
-        assert!(order > 1.6 && of_averages < 1.4, "{}: {order} {of_averages}", fine.kind());
-        assert!(3.0 * error(&fine, field) < averages(&fine), "{}", fine.kind());
+        assert!(order > 1.6 && of_averages < 1.4, "{}: {order} {of_averages}", fine.element().name);
+        assert!(3.0 * error(&fine, field) < averages(&fine), "{}", fine.element().name);
     }
 }
 
@@ -101,7 +97,7 @@ fn patches_do_not_mix_materials_and_a_node_between_them_has_the_mean() {
         for ((stress, x), materials) in found.iter().zip(mesh.vertices()).zip(materials) {
             let factors: Vec<f64> = (0..2).filter(|&m| materials[m]).map(factor).collect();
             let expected = linear(x) * factors.iter().sum::<f64>() / factors.len() as f64;
-            assert!((stress - expected).amax() < 1e-9, "{} at {x}: {stress} {expected}", mesh.kind());
+            assert!((stress - expected).amax() < 1e-9, "{} at {x}: {stress} {expected}", mesh.element().name);
         }
     }
 }

@@ -6,11 +6,10 @@ use fem_chart::{Axis, Chart, Dot, Guide, Picture, Series};
 
 use crate::experiments::{Figure, Mark, Part, Table};
 use crate::runs::convergence_order::fit;
-use crate::space::manufactured::{Family, solve};
+use crate::space::manufactured::{label, orders, solve};
+use fem_model::element::Element;
 
 const MODELS: [&str; 2] = ["linear", "neo_hookean"];
-
-const FAMILIES: [Family; 2] = [Family::Triangles, Family::QuadraticTriangles];
 
 /// Largest distance of an observed order from theory.
 const TOLERANCE: f64 = 0.1;
@@ -18,7 +17,7 @@ const TOLERANCE: f64 = 0.1;
 /// The errors of one kind of elements and one law.
 struct Sequence {
     model: &'static str,
-    family: Family,
+    element: &'static Element,
     levels: Vec<Level>,
 }
 
@@ -36,9 +35,9 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     let models = if quick { &MODELS[1..] } else { &MODELS };
     let (mut sequences, mut marks) = (Vec::new(), Vec::new());
     for &model in models {
-        for family in FAMILIES {
-            let levels = cells.iter().map(|&cells| level(model, family, cells)).collect::<Result<Vec<_>, _>>()?;
-            let sequence = Sequence { model, family, levels };
+        for element in Element::ALL.into_iter().filter(|element| element.dimension == 2) {
+            let levels = cells.iter().map(|&cells| level(model, element, cells)).collect::<Result<Vec<_>, _>>()?;
+            let sequence = Sequence { model, element, levels };
             marks.extend((0..2).map(|norm| judge(&sequence, norm)));
             sequences.push(sequence);
         }
@@ -76,8 +75,8 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     })
 }
 
-fn level(model: &str, family: Family, cells: usize) -> Result<Level, String> {
-    let solved = solve(model, family, cells)?;
+fn level(model: &str, element: &Element, cells: usize) -> Result<Level, String> {
+    let solved = solve(model, element, cells)?;
     let nodes = solved.mesh.vertices().len();
     Ok(Level { spacing: 1.0 / cells as f64, nodes, errors: [solved.l2, solved.h1], seconds: solved.seconds })
 }
@@ -89,11 +88,11 @@ fn order(pair: &[Level], norm: usize) -> Option<f64> {
 }
 
 fn judge(sequence: &Sequence, norm: usize) -> Mark {
-    let expected = sequence.family.orders()[norm];
+    let expected = orders(sequence.element)[norm];
     let found = sequence.levels.windows(2).last().and_then(|pair| order(pair, norm));
     let law = sequence.model.replace('_', "-");
     let statement =
-        format!("{law}, {}: order {expected} in {} within {TOLERANCE}", sequence.family.name(), NORMS[norm]);
+        format!("{law}, {}: order {expected} in {} within {TOLERANCE}", label(sequence.element), NORMS[norm]);
     let holds = found.is_some_and(|found| (found - expected).abs() <= TOLERANCE);
     Mark::new(statement, found.map_or("–".to_owned(), |found| format!("{found:.3}")), holds)
 }
@@ -108,7 +107,7 @@ fn rows(sequence: &Sequence) -> Vec<Vec<String>> {
         };
         vec![
             sequence.model.to_owned(),
-            sequence.family.name().to_owned(),
+            label(sequence.element),
             format!("{:.5}", level.spacing),
             level.nodes.to_string(),
             format!("{:.4e}", level.errors[0]),
@@ -122,8 +121,8 @@ fn rows(sequence: &Sequence) -> Vec<Vec<String>> {
 }
 
 fn picture(sequences: &[Sequence]) -> Picture {
-    let label = "errors of linear and quadratic triangles over the edge of a cell";
-    let mut chart = Chart::new(label, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
+    let text = "errors of linear and quadratic triangles over the edge of a cell";
+    let mut chart = Chart::new(text, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
     let shown = sequences.iter().filter(|sequence| sequence.model == "neo_hookean");
     for (place, sequence) in shown.enumerate() {
         for (norm, name) in NORMS.into_iter().enumerate() {
@@ -132,19 +131,19 @@ fn picture(sequences: &[Sequence]) -> Picture {
                 y: level.errors[norm],
                 title: format!(
                     "{}, {} nodes\nerror in {name} {:.3e}",
-                    sequence.family.name(),
+                    label(sequence.element),
                     level.nodes,
                     level.errors[norm]
                 ),
                 ..Dot::default()
             };
             let finest = sequence.levels.last().map(|level| (level.spacing, 0.6 * level.errors[norm]));
-            let slope = sequence.family.orders()[norm];
+            let slope = orders(sequence.element)[norm];
             if let Some(through) = finest {
                 chart.guides.push(Guide::Slope { through, slope, name: format!("h^{slope}") });
             }
             chart.series.push(Series {
-                name: format!("{}, {name}", sequence.family.name()),
+                name: format!("{}, {name}", label(sequence.element)),
                 colour: place,
                 shape: norm,
                 is_joined: true,

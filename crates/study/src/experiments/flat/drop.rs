@@ -6,7 +6,7 @@ use std::path::Path;
 use fem_chart::{Axis, Chart, Dot, Series};
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::PictureMesh;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector2;
 
 use super::object::{DENSITY, LAME, OBJECTS, meshed, picture, simulator};
@@ -189,7 +189,7 @@ fn tables(centre: Vector2<f64>) -> String {
 /// The closed lines around a body and its holes.
 fn outlines(simulation: &Simulator<f64>) -> Vec<Vec<Vector2<f64>>> {
     let (shape, q) = (simulation.shape(), simulation.positions());
-    let mut next: HashMap<usize, usize> = shape.mesh.outline().iter().map(|edge| (edge[0], edge[1])).collect();
+    let mut next: HashMap<usize, usize> = shape.mesh.faces().iter().map(|edge| (edge[0], edge[1])).collect();
     let mut loops = Vec::new();
     while let Some(&first) = next.keys().min() {
         let (mut line, mut node) = (Vec::new(), first);

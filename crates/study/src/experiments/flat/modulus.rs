@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::Diagnostics;
 
 use super::simulation::{simulation, step};
 use crate::experiments::{Mark, Part, Table};

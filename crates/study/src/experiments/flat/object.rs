@@ -35,7 +35,7 @@ pub fn simulator(mesh: &PictureMesh, lame: f64, method: &str, rest: &str) -> Res
     );
     let vertices = mesh.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
     let triangles = SurfaceMesh::new(vertices, mesh.mesh.elements.clone());
-    simulation(&text, Some(BodyMesh::Flat { triangles, thickness: 1.0 }))
+    simulation(&text, Some(BodyMesh::flat(triangles, 1.0)))
 }
 
 /// Displacements of a few parts in a million of the height in which every vibration takes part: multiples of the golden ratio, modulo 1.

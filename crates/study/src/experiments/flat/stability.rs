@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::PictureMesh;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use super::object::{LAME, OBJECTS, disturb, meshed, picture, simulator};
 use crate::experiments::{Mark, Part, Table};

@@ -97,7 +97,7 @@ fn donut(data: &Path) -> Result<BodyMesh, String> {
     let found = mesh_picture(&picture, FromPicture { edge: 0.06, height: 1.0, improve: 5 })
         .map_err(|error| error.to_string())?;
     let vertices = found.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
-    Ok(BodyMesh::Flat { triangles: SurfaceMesh::new(vertices, found.mesh.elements), thickness: 1.0 })
+    Ok(BodyMesh::flat(SurfaceMesh::new(vertices, found.mesh.elements), 1.0))
 }
 
 /// Results of pressing a body.
@@ -153,16 +153,11 @@ fn timed(simulation: &mut dyn Simulation, quick: bool) -> Result<(f64, f64), Str
 fn pressed_area(mesh: &BodyMesh, above: f64) -> f64 {
     let x = mesh.vertices();
     let is_above = |nodes: &[usize]| nodes.iter().all(|&i| x[i].y >= above);
-    match mesh {
-        BodyMesh::Solid(_) => {
-            let area = |face: &[usize; 3]| 0.5 * (x[face[1]] - x[face[0]]).cross(&(x[face[2]] - x[face[0]])).norm();
-            mesh.surface().iter().filter(|face| is_above(&face[..])).map(area).sum()
-        }
-        BodyMesh::Flat { thickness, .. } | BodyMesh::Quadratic { thickness, .. } => {
-            let length = |edge: &Vec<usize>| (x[edge[1]] - x[edge[0]]).norm();
-            thickness * mesh.outline().iter().filter(|edge| is_above(edge)).map(length).sum::<f64>()
-        }
-    }
+    let area = |face: &Vec<usize>| match (mesh.thickness(), &face[..]) {
+        (None, &[a, b, c]) => 0.5 * (x[b] - x[a]).cross(&(x[c] - x[a])).norm(),
+        (thickness, face) => thickness.unwrap_or(f64::NAN) * (x[face[1]] - x[face[0]]).norm(),
+    };
+    mesh.faces().iter().filter(|face| is_above(face)).map(area).sum()
 }
 
 fn row(name: &str, mesh: &BodyMesh, law: &str, found: &Pressed) -> Vec<String> {

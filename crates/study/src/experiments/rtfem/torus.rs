@@ -111,7 +111,7 @@ fn filled(edge: f64, turn: f64) -> Result<TetrahedralMesh, String> {
 
 /// The improved mesh, turned back.
 fn finished(mesh: TetrahedralMesh, turn: f64) -> TetrahedralMesh {
-    let mut mesh = improve_inside(&mesh, IMPROVE, &Solid::new(&turned_surface(turn))).mesh;
+    let mut mesh = improve_inside(&mesh, IMPROVE, &Solid::new(&turned_surface(turn)), &|_| ()).mesh;
     let back = Rotation3::from_axis_angle(&Vector3::x_axis(), -turn);
     mesh.vertices.iter_mut().for_each(|x| *x = back * *x);
     mesh
@@ -140,7 +140,7 @@ fn is_torus(mesh: &TetrahedralMesh) -> bool {
     let mut nodes: Vec<usize> = faces.iter().flatten().copied().collect();
     nodes.sort_unstable();
     nodes.dedup();
-    2 * nodes.len() == faces.len() && parts(mesh).iter().all(|part| *part == 0)
+    2 * nodes.len() == faces.len() && parts(mesh.vertices.len(), &mesh.elements).iter().all(|part| *part == 0)
 }
 
 /// Adds the sets `left` and `right`.

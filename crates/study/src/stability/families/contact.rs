@@ -1,6 +1,6 @@
 //! Bodies that hit planes: fast, stiff, with much friction or none. No node is behind a plane after any step.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::Diagnostics;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};
 use crate::stability::march::march_with;
@@ -23,7 +23,9 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
                 // Fractions of the speed of waves in the body.
                 for speed in [1e-3, 0.2] {
                     let methods = ["implicit_euler", "verlet", "semi_implicit_euler"];
-                    for integrator in methods.into_iter().chain(SECOND_ORDER) {
+                    // Bathe's method has no contact.
+                    let second_order = SECOND_ORDER.into_iter().filter(|integrator| *integrator != "bathe");
+                    for integrator in methods.into_iter().chain(second_order) {
                         let text = SceneText {
                             mesh: (*mesh).to_owned(),
                             young,

@@ -1,7 +1,7 @@
 //! Energy from nothing: every method with every damping, driven in every way. The judge is the energy ledger; copies of a scene that are turned,
 //! scaled, or solved by another solver are further judges.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};
@@ -75,16 +75,17 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 fn scenes() -> Vec<Driven> {
     let mut scenes = Vec::new();
     let explicit = ["semi_implicit_euler", "rk2", "rk4", "verlet"].map(|name| (name, &DAMPINGS[..3], &[5e-4][..]));
-    let newton = ["implicit_euler"].into_iter().chain(SECOND_ORDER);
+    let newton = ["implicit_euler"].into_iter().chain(SECOND_ORDER).filter(|integrator| *integrator != "bathe");
     let newton = newton.map(|name| (name, &DAMPINGS[..], &[5e-3, 0.05][..]));
     let other = [
         ("linearly_implicit_euler", &DAMPINGS[..], &[2e-3][..]),
         ("xpbd", &DAMPINGS[..2], &[5e-3][..]),
         ("vbd", &DAMPINGS[..2], &[5e-3][..]),
         ("projective_dynamics", &DAMPINGS[..2], &[5e-3][..]),
+        ("bathe", &DAMPINGS[..], &[5e-3, 0.05][..]),
     ];
     for (integrator, dampings, steps) in explicit.into_iter().chain(newton).chain(other) {
-        let has_planes = !["linearly_implicit_euler", "projective_dynamics"].contains(&integrator);
+        let has_planes = !["linearly_implicit_euler", "projective_dynamics", "bathe"].contains(&integrator);
         let drives = if has_planes { DRIVES.len() } else { WITHOUT_PLANES };
         for (&dt, &damping) in steps.iter().flat_map(|dt| dampings.iter().map(move |damping| (dt, damping))) {
             for drive in 0..drives {

@@ -1,6 +1,6 @@
 //! Ten thousand steps and more, and time steps that change within a run.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Interactive, Simulation};
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};

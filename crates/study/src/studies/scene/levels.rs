@@ -73,7 +73,7 @@ impl StudyMeshes<'_> {
             Some(reference) => Ok(reference.q.clone()),
             None => self.settled(scene, is_static, study.horizon, (1 << number) as f64 * study.fastest / 2.0),
         };
-        let mesh = body.mesh.solid().cloned().ok_or("a box is made of tetrahedra")?;
+        let mesh = body.mesh.clone();
         Ok(q.map(|q| Level { cells, mesh, q }))
     }
 

@@ -6,8 +6,8 @@ use fem_model::simulation::Pull;
 use fem_scene::output::ElementField;
 
 use super::SimulationLoop;
-use crate::change::Change;
-use crate::worker::scene_editor::Motion;
+use crate::editing::change::Change;
+use crate::editing::editor::Motion;
 
 /// Largest number of nodes for which the longest stable time step is computed.
 const MOST_NODES: usize = 5000;
@@ -15,12 +15,12 @@ const MOST_NODES: usize = 5000;
 impl SimulationLoop {
     /// Updates the values that the panel shows of a simulation and its method.
     pub(super) fn inspect(&mut self) {
-        self.fields = ElementField::of(&*self.simulation);
+        self.last.fields = ElementField::of(&*self.simulation);
         let is_small = self.simulation.shape().mesh.vertices().len() <= MOST_NODES;
         if let Some(editor) = &mut self.editor {
             editor.find_conditions(&*self.simulation);
         }
-        self.critical_time_step = match &self.editor {
+        self.last.critical_time_step = match &self.editor {
             Some(_) if is_small => self.simulation.critical_time_step(),
             _ => None,
         };
@@ -38,27 +38,27 @@ impl SimulationLoop {
         let Some(editor) = &mut self.editor else { return };
         self.last.is_building = true;
         self.slot.put(self.last.clone());
-        self.changes += 1;
+        self.last.changes += 1;
         let outcome = editor.apply(changes, &mut self.simulation);
         // The wall clock did not stop meanwhile.
         self.pace.restart();
         self.rate.restart();
         match outcome {
             Ok(motion) => {
-                self.refusal = None;
-                self.stop = None;
+                self.last.refusal = None;
+                self.last.stop = None;
                 if motion == Motion::StartsAgain {
                     self.forget_run();
                 }
                 self.inspect();
             }
-            Err(message) => self.refusal = Some(message),
+            Err(message) => self.last.refusal = Some(message),
         }
     }
 
     /// Writes the scene as it is set up to a new file.
     pub(super) fn save(&mut self, path: PathBuf) {
         let Some(editor) = &self.editor else { return };
-        self.saved = Some(editor.save(&path, &*self.simulation).map(|()| path));
+        self.last.saved = Some(editor.save(&path, &*self.simulation).map(|()| path));
     }
 }

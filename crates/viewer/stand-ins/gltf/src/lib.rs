@@ -46,87 +46,69 @@ macro_rules! never {
 }
 
 never! {
-    Document {
-        animations() -> Empty<Animation>,
-        default_scene() -> Option<Scene>,
-        materials() -> Empty<Material>,
-        meshes() -> Empty<Mesh>,
-        nodes() -> Empty<Node>,
-        scenes() -> Empty<Scene>,
-    }
-    Scene { nodes() -> Empty<Node>, }
-    Node {
-        children() -> Empty<Node>,
+    Part {
+        animations() -> Empty<Part>,
+        channels() -> Empty<Part>,
+        children() -> Empty<Part>,
+        decomposed() -> ([f32; 3], [f32; 4], [f32; 3]),
+        default_scene() -> Option<Part>,
         index() -> usize,
-        mesh() -> Option<Mesh>,
-        skin() -> Option<Skin>,
-        transform() -> Transform,
-        weights() -> Option<&[f32]>,
-    }
-    Transform { decomposed() -> ([f32; 3], [f32; 4], [f32; 3]), }
-    Mesh {
-        index() -> usize,
-        name() -> Option<&str>,
-        primitives() -> Empty<Primitive>,
-        weights() -> Option<&[f32]>,
-    }
-    Primitive {
+        interpolation() -> animation::Interpolation,
+        into_u16() -> Empty<[u16; 4]>,
+        into_u32() -> Empty<u32>,
+        joints() -> Empty<Part>,
         material() -> Material,
+        materials() -> Empty<Material>,
+        mesh() -> Option<Part>,
+        meshes() -> Empty<Part>,
         mode() -> mesh::Mode,
-        reader<'a>(impl Fn(Buffer) -> Option<&'a buffer::Data>) -> Reader,
-    }
-    Skin {
-        joints() -> Empty<Node>,
-        reader<'a>(impl Fn(Buffer) -> Option<&'a buffer::Data>) -> Reader,
-    }
-    Buffer { index() -> usize, }
-    Reader {
-        read_indices() -> Option<Integers>,
+        name() -> Option<&str>,
+        node() -> Part,
+        nodes() -> Empty<Part>,
+        primitives() -> Empty<Part>,
+        read_indices() -> Option<Part>,
         read_inputs() -> Option<Empty<f32>>,
         read_inverse_bind_matrices() -> Option<Empty<[[f32; 4]; 4]>>,
-        read_joints(u32) -> Option<Joints>,
+        read_joints(u32) -> Option<Part>,
         read_morph_targets() -> Empty<(Points, Points, Points)>,
         read_normals() -> Option<Empty<[f32; 3]>>,
         read_outputs() -> Option<animation::util::ReadOutputs>,
         read_positions() -> Option<Empty<[f32; 3]>>,
         read_tex_coords(u32) -> Option<Coordinates>,
         read_weights(u32) -> Option<Vectors>,
+        reader<'a>(impl Fn(Part) -> Option<&'a buffer::Data>) -> Part,
+        sampler() -> Part,
+        scenes() -> Empty<Part>,
+        skin() -> Option<Part>,
+        source() -> Part,
+        target() -> Part,
+        texture() -> Part,
+        transform() -> Part,
+        weights() -> Option<&[f32]>,
     }
-    Integers { into_u32() -> Empty<u32>, }
-    Joints { into_u16() -> Empty<[u16; 4]>, }
+    Material {
+        base_color_factor() -> [f32; 4],
+        base_color_texture() -> Option<Part>,
+        emissive_factor() -> [f32; 3],
+        emissive_texture() -> Option<Part>,
+        index() -> Option<usize>,
+        metallic_factor() -> f32,
+        metallic_roughness_texture() -> Option<Part>,
+        normal_texture() -> Option<Part>,
+        occlusion_texture() -> Option<Part>,
+        pbr_metallic_roughness() -> Material,
+        roughness_factor() -> f32,
+    }
     Coordinates { into_f32() -> Empty<[f32; 2]>, }
     Vectors { into_f32() -> Empty<[f32; 4]>, }
     Numbers { into_f32() -> Empty<f32>, }
-    Material {
-        emissive_factor() -> [f32; 3],
-        emissive_texture() -> Option<TextureInfo>,
-        index() -> Option<usize>,
-        normal_texture() -> Option<TextureInfo>,
-        occlusion_texture() -> Option<TextureInfo>,
-        pbr_metallic_roughness() -> PbrMetallicRoughness,
-    }
-    PbrMetallicRoughness {
-        base_color_factor() -> [f32; 4],
-        base_color_texture() -> Option<TextureInfo>,
-        metallic_factor() -> f32,
-        metallic_roughness_texture() -> Option<TextureInfo>,
-        roughness_factor() -> f32,
-    }
-    TextureInfo { texture() -> Texture, }
-    Texture { source() -> Source, }
-    Source { index() -> usize, }
-    Animation {
-        channels() -> Empty<Channel>,
-        name() -> Option<&str>,
-    }
-    Channel {
-        reader<'a>(impl Fn(Buffer) -> Option<&'a buffer::Data>) -> Reader,
-        sampler() -> Sampler,
-        target() -> Target,
-    }
-    Sampler { interpolation() -> animation::Interpolation, }
-    Target { node() -> Node, }
 }
+
+// One type has the methods of all that differ in nothing.
+pub type Document = Part;
+pub type Primitive = Part;
+pub type Skin = Part;
+pub type Animation = Part;
 
 pub mod buffer {
     pub struct Data(super::Never);

@@ -47,37 +47,28 @@ pub struct EncodedImage {
 #[derive(Default)]
 pub struct Encoder<'a>(std::marker::PhantomData<&'a ()>);
 
+/// Settings of one value.
+macro_rules! settings {
+    ($($name:ident: $value:ty,)*) => {
+        $(pub fn $name(self, _: $value) -> Self {
+            self
+        })*
+    };
+}
+
 impl<'a> Encoder<'a> {
     pub fn new() -> Self {
         Self::default()
     }
 
-    pub fn with_quality(self, _quality: f32) -> Self {
-        self
-    }
-
-    pub fn with_alpha_quality(self, _quality: f32) -> Self {
-        self
-    }
-
-    pub fn with_speed(self, _speed: u8) -> Self {
-        self
-    }
-
-    pub fn with_bit_depth(self, _depth: BitDepth) -> Self {
-        self
-    }
-
-    pub fn with_internal_color_model(self, _model: ColorModel) -> Self {
-        self
-    }
-
-    pub fn with_num_threads(self, _threads: Option<usize>) -> Self {
-        self
-    }
-
-    pub fn with_exif(self, _exif: Vec<u8>) -> Self {
-        self
+    settings! {
+        with_quality: f32,
+        with_alpha_quality: f32,
+        with_speed: u8,
+        with_bit_depth: BitDepth,
+        with_internal_color_model: ColorModel,
+        with_num_threads: Option<usize>,
+        with_exif: Vec<u8>,
     }
 
     pub fn encode_rgb(&self, _picture: Img<&[RGB8]>) -> Result<EncodedImage, Error> {

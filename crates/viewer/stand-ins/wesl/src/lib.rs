@@ -1,9 +1,9 @@
 //! Stands for [wesl](https://docs.rs/wesl), a compiler of WGSL with imports and conditions, which brings a parser generator and two
 //! regular expression engines. Only kiss3d calls it, from `compile_wesl` in its `builtin/mod.rs`, to compose its own shaders.
 //!
-//! This composer works on their text: it joins the modules that are imported, resolves `@if`, and removes what no entry point
-//! reaches, as wesl does. Names stay as they are; two declarations of one name are an error. `tests/shaders.rs` composes every
-//! shader of kiss3d and lets naga validate it.
+//! This composer works on their text: it joins the modules that are imported and resolves `@if`. Names stay as they are, so that two declarations of
+//! one name are an error of the shader, and what no entry point reaches stays too. `tests/shaders.rs` composes every shader of kiss3d and lets naga
+//! validate it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -77,11 +77,15 @@ impl Wesl {
         }
     }
 
-    /// Returns the entry points of the module `root` with all that they reach, as WGSL.
+    /// Returns the module `root` with all that it imports, as WGSL.
     pub fn compile(&self, root: &ModulePath) -> Result<String, Error> {
         let mut declarations = Vec::new();
         self.collect(root, &mut BTreeSet::new(), &mut declarations)?;
-        reachable(&declarations)
+        // Directives stand before all declarations.
+        let is_directive =
+            |item: &&String| ["enable", "requires", "diagnostic"].iter().any(|word| item.starts_with(word));
+        let (directives, others): (Vec<&String>, Vec<&String>) = declarations.iter().partition(is_directive);
+        Ok(directives.into_iter().chain(others).map(|item| format!("{item}\n")).collect())
     }
 
     /// Collects the declarations of a module behind those of the modules that it imports, each module once.
@@ -181,46 +185,6 @@ fn behind_attributes(text: &str) -> &str {
         }
     }
     rest
-}
-
-/// Joins the declarations that the entry points reach, directives first.
-fn reachable(declarations: &[String]) -> Result<String, Error> {
-    let mut named = BTreeMap::<&str, Vec<&str>>::new();
-    let mut directives = Vec::new();
-    let mut waiting = Vec::new();
-    for declaration in declarations {
-        match name(declaration) {
-            Some(name) => named.entry(name).or_default().push(declaration),
-            None => directives.push(declaration.as_str()),
-        }
-        if ["@vertex", "@fragment", "@compute"].iter().any(|stage| declaration.contains(stage)) {
-            waiting.extend(name(declaration));
-        }
-    }
-    let mut reached = BTreeMap::new();
-    while let Some(name) = waiting.pop() {
-        let Some(same) = named.get(name) else { continue }; // a word of the language, a local name
-        let [declaration] = same.as_slice() else { return Err(Error(format!("{name} is declared twice"))) };
-        if reached.insert(name, *declaration).is_none() {
-            waiting.extend(declaration.split(|c| !is_word(c)));
-        }
-    }
-    directives.extend(reached.values());
-    Ok(directives.join("\n"))
-}
-
-/// Returns the name that a declaration declares; directives have none.
-fn name(declaration: &str) -> Option<&str> {
-    let declared = behind_attributes(declaration);
-    let kind = ["fn", "struct", "var", "const", "override", "alias"];
-    let mut rest = kind
-        .iter()
-        .find_map(|kind| declared.strip_prefix(kind).filter(|rest| !rest.starts_with(is_word)))?
-        .trim_start();
-    if rest.starts_with('<') {
-        rest = rest.split_once('>').map_or("", |(_, behind)| behind).trim_start();
-    }
-    rest.split(|c| !is_word(c)).next()
 }
 
 fn is_word(c: char) -> bool {

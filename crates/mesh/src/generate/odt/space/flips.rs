@@ -9,12 +9,15 @@ use super::shape::{Floor, Shape};
 /// Largest number of elements around an edge that is removed: 14 triangulations of a hexagon and 42 of a heptagon.
 const LARGEST_RING: usize = 7;
 
+/// Cost of an element.
+type Cost<'a> = &'a dyn Fn(&Cells, [u32; 4]) -> f64;
+
 /// The measure by which elements are exchanged.
 pub struct Objective<'a> {
     /// Cost of a new element; infinite if it must not come into being.
-    pub cost: &'a dyn Fn(&Cells, [u32; 4]) -> f64,
+    pub cost: Cost<'a>,
     /// Cost of an element that would vanish.
-    pub of_old: &'a dyn Fn(&Cells, [u32; 4]) -> f64,
+    pub of_old: Cost<'a>,
     /// Cost of two parts together: their sum, or the larger one.
     pub both: fn(f64, f64) -> f64,
     /// The cost below which a change is better than the old cost.
@@ -22,18 +25,9 @@ pub struct Objective<'a> {
 }
 
 impl Objective<'_> {
-    fn of_all(&self, cells: &Cells, elements: impl IntoIterator<Item = [u32; 4]>) -> f64 {
-        let costs = elements.into_iter().map(|element| (self.cost)(cells, element));
+    fn of_all(&self, cells: &Cells, elements: impl IntoIterator<Item = [u32; 4]>, cost: Cost) -> f64 {
+        let costs = elements.into_iter().map(|element| cost(cells, element));
         costs.reduce(self.both).unwrap_or(0.0)
-    }
-
-    fn of_all_old(&self, cells: &Cells, elements: impl IntoIterator<Item = [u32; 4]>) -> f64 {
-        let costs = elements.into_iter().map(|element| (self.of_old)(cells, element));
-        costs.reduce(self.both).unwrap_or(0.0)
-    }
-
-    fn is_better(&self, new: f64, old: f64) -> bool {
-        new < (self.at_most)(old)
     }
 }
 
@@ -50,8 +44,9 @@ pub fn remove_face(cells: &mut Cells, cell: u32, side: usize, objective: &Object
     }
     let [a, b, c] = face;
     let new = [[apex, a, b, below], [apex, b, c, below], [apex, c, a, below]];
-    let before = objective.of_all_old(cells, [cells.corners[cell as usize], cells.corners[other as usize]]);
-    if !objective.is_better(objective.of_all(cells, new), before) {
+    let old = [cell, other].map(|cell| cells.corners[cell as usize]);
+    let before = objective.of_all(cells, old, objective.of_old);
+    if !(objective.of_all(cells, new, objective.cost) < (objective.at_most)(before)) {
         return false;
     }
     cells.replace(&[cell, other], &new);
@@ -68,9 +63,10 @@ pub fn remove_edge(cells: &mut Cells, edge: [u32; 2], objective: &Objective) -> 
     if !cells.is_removable_edge(edge, &ring) {
         return false;
     }
-    let before = objective.of_all_old(cells, around.iter().map(|&cell| cells.corners[cell as usize]));
+    let old = around.iter().map(|&cell| cells.corners[cell as usize]);
+    let before = objective.of_all(cells, old, objective.of_old);
     let (cost, triangles) = best_triangulation(cells, edge, &ring, objective);
-    if !objective.is_better(cost, before) {
+    if !(cost < (objective.at_most)(before)) {
         return false;
     }
     let new: Vec<[u32; 4]> = triangles.into_iter().flat_map(|triangle| over(edge, triangle)).collect();
@@ -123,7 +119,7 @@ fn best_triangulation(cells: &Cells, edge: [u32; 2], ring: &[u32], objective: &O
             let j = i + length;
             best[i][j].0 = f64::INFINITY;
             for k in i + 1..j {
-                let mut cost = objective.of_all(cells, over(edge, [ring[i], ring[k], ring[j]]));
+                let mut cost = objective.of_all(cells, over(edge, [ring[i], ring[k], ring[j]]), objective.cost);
                 for part in [(i, k), (k, j)].into_iter().filter(|(from, to)| to - from > 1) {
                     cost = (objective.both)(cost, best[part.0][part.1].0);
                 }

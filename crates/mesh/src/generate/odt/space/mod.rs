@@ -51,34 +51,24 @@ pub struct Improved {
 
 /// Improves a mesh that has passed the check by up to `iterations` of optimal Delaunay triangulation, and as many passes over the worst
 /// elements. The boundary stays, as do the faces between different sets and the faces, edges and points that sets name. The worst element is
-/// never worse than before: smallest and largest dihedral angle, `3 r / R` and shortest edge over circumradius.
+/// never worse than before: smallest and largest dihedral angle, `3 r / R` and shortest edge over circumradius. Tells how many of the iterations and passes are done.
 ///
 /// ```
 /// let mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 4, fem_mesh::Pattern::Alternating)?;
-/// let improved = fem_mesh::generate::odt::improve_tetrahedra(&mesh, 5);
+/// let improved = fem_mesh::generate::odt::improve_tetrahedra(&mesh, 5, &|_| ());
 /// let volume: f64 = fem_mesh::volumes(&improved.mesh).iter().sum();
 /// assert!((volume - 1.0).abs() < 1e-12);
 /// # Ok::<(), fem_mesh::MeshError>(())
 /// ```
-pub fn improve_tetrahedra(mesh: &TetrahedralMesh, iterations: usize) -> Improved {
-    improve_tetrahedra_with(mesh, iterations, &|_| ())
-}
-
-/// The improvement of [`improve_tetrahedra`], which tells how many of the iterations and passes are done.
-pub fn improve_tetrahedra_with(mesh: &TetrahedralMesh, iterations: usize, progress: Progress) -> Improved {
+pub fn improve_tetrahedra(mesh: &TetrahedralMesh, iterations: usize, progress: Progress) -> Improved {
     improve_with(mesh, Cells::new(mesh), iterations, &|_, _| None, progress)
 }
 
 /// Improves a mesh as [`improve_tetrahedra`] does, and lets the vertices of its boundary that lie on a surface slide on it, while the worst
 /// elements are improved. Volume and boundary change by as much as two meshes of the surface differ.
-pub fn improve_inside(mesh: &TetrahedralMesh, iterations: usize, surface: &Solid) -> Improved {
-    improve_inside_with(mesh, iterations, surface, &|_| ())
-}
-
-/// The improvement of [`improve_inside`], which tells how many of the iterations and passes are done.
-pub fn improve_inside_with(mesh: &TetrahedralMesh, iterations: usize, surface: &Solid, progress: Progress) -> Improved {
+pub fn improve_inside(mesh: &TetrahedralMesh, iterations: usize, surface: &Solid, progress: Progress) -> Improved {
     if iterations == 0 {
-        return improve_tetrahedra(mesh, 0);
+        return improve_tetrahedra(mesh, 0, progress);
     }
     let mut cells = Cells::new(mesh);
     let near = ON_SURFACE * cells.mean_edge_of_all();

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use fem_engine::simulator::Simulator;
 use fem_mesh::{Pattern, TetrahedralMesh, box_mesh};
 use fem_model::BodyMesh;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector3;
 
 use super::cylinder::graded;
@@ -55,7 +55,7 @@ pub fn contact(h: f64) -> Result<Hertz, String> {
         side("y", "max", -depth),
         -FLOOR
     );
-    let mut simulation = simulation(&text, Some(BodyMesh::Solid(block(h)?)))?;
+    let mut simulation = simulation(&text, Some(BodyMesh::solid(block(h)?)))?;
     steps(&mut simulation, LOAD_STEPS)?;
     let contact = &simulation.contacts()[0];
     let support = simulation.reactions()[2].force[1];

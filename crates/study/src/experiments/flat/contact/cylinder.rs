@@ -2,7 +2,7 @@
 
 use fem_mesh::SurfaceMesh;
 use fem_model::BodyMesh;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector3;
 
 use crate::experiments::flat::simulation::{simulation, steps};
@@ -62,7 +62,7 @@ pub fn widths(h: f64) -> Result<[f64; 2], String> {
          [[prescribed]]\non = { axis = \"x\", side = \"min\", within = 1e-9 }\ndisplacement = [0, 0, 0]\ncomponents = [\"x\"]\n\
          [[prescribed]]\non = { axis = \"y\", side = \"max\", within = 1e-9 }\ndisplacement = [0, -0.0063, 0]\ncomponents = [\"y\"]\n\
          [contact]\nactivation_distance = 1e-5\n[[planes]]\npoint = [0, -1e-6, 0]\nnormal = [0, 1, 0]\n";
-    let mesh = BodyMesh::Flat { triangles: quarter(h), thickness: 1.0 };
+    let mesh = BodyMesh::flat(quarter(h), 1.0);
     let mut simulation = simulation(text, Some(mesh))?;
     steps(&mut simulation, 4)?;
     let force = 2.0 * simulation.contacts()[0].force[1];

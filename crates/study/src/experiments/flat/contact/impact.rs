@@ -1,6 +1,6 @@
 //! A bar that hits a wall: the wave of compression runs to its free end and back.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use super::momentum;
 use crate::experiments::flat::simulation::{simulation, step};

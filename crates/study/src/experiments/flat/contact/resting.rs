@@ -1,6 +1,6 @@
 //! A block at rest on the barrier of a floor.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::experiments::flat::simulation::simulation;
 

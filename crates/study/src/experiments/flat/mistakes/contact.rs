@@ -1,6 +1,6 @@
 //! Friction, and the order of projection and integration.
 
-use fem_model::simulation::Simulation;
+use fem_model::simulation::Diagnostics;
 
 use crate::experiments::flat::contact::incline;
 use crate::experiments::flat::simulation::{simulation, step};

@@ -27,7 +27,7 @@ const MAXIMUM: f64 = 0.1;
 /// The plastic strain of a body that is stretched in both directions until its bound stops it.
 pub fn cap() -> Mistake {
     let strain: Tensor<f64> = [[0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0; 3]];
-    let mut of = Additive { mu: 1.0, lambda: 1.0, plastic: zero(), is_flat: true };
+    let mut of = Additive { mu: 1.0, lambda: 1.0, plastic: zero(), is_in_plane: true };
     for _ in 0..100 {
         of.plastic = of.flow(&strain, YIELD, 0.1, MAXIMUM).0.plastic;
     }

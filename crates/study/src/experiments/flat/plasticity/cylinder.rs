@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use fem_mesh::SurfaceMesh;
 use fem_model::BodyMesh;
-use fem_model::simulation::Simulation;
+use fem_model::simulation::Diagnostics;
 use nalgebra::Vector3;
 
 use crate::experiments::flat::simulation::{simulation, step};
@@ -35,7 +35,7 @@ pub fn elastic_pressure() -> f64 {
 /// Pressure on the inside after each of `load_steps` equal steps of the inner wall's displacement, which is `distance` (m) at the end; Pa.
 pub fn pressures(rings: usize, sectors: usize, distance: f64, load_steps: usize) -> Result<Vec<f64>, String> {
     let mesh = quarter(rings, sectors);
-    let flat = BodyMesh::Flat { triangles: mesh.clone(), thickness: 1.0 };
+    let flat = BodyMesh::flat(mesh.clone(), 1.0);
     let mut simulation = simulation(&scene(&mesh, sectors, distance, load_steps), Some(flat))?;
     let mut pressure = || {
         step(&mut simulation)?;

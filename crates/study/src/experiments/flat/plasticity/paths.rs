@@ -65,7 +65,7 @@ pub fn j2(paths: usize) -> Found {
 
 /// The additive model with the yield strain 0.05 and the maximum 0.6; a fraction of the excess, from 0 to 1, flows in a step.
 pub fn additive(paths: usize) -> Found {
-    let start = Additive { mu: SHEAR, lambda: SHEAR, plastic: zero(), is_flat: true };
+    let start = Additive { mu: SHEAR, lambda: SHEAR, plastic: zero(), is_in_plane: true };
     all_paths(paths, start, |of, G, random| {
         let ((after, dissipated), before) = (of.flow(G, 0.05, random.random(), 0.6), of.energy(G));
         let has_flowed = after.plastic != of.plastic;

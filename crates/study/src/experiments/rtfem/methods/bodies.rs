@@ -32,7 +32,7 @@ impl Shape {
     /// The mesh with this many cells across, and the x (m) up to which its nodes are fixed.
     pub fn mesh(self, cells: usize) -> (BodyMesh, f64) {
         match self {
-            Self::Beam => (BodyMesh::Solid(block([LENGTH * cells, cells, cells], 1.0 / cells as f64)), 1e-9),
+            Self::Beam => (BodyMesh::solid(block([LENGTH * cells, cells, cells], 1.0 / cells as f64)), 1e-9),
             Self::Strip => (strip(LENGTH * 3 * cells, 3 * cells, 1.0 / (3 * cells) as f64), 0.51 / (3 * cells) as f64),
         }
     }
@@ -103,7 +103,7 @@ fn strip(columns: usize, rows: usize, edge: f64) -> BodyMesh {
         if j % 2 == 0 { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] }
     };
     let cells = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
-    BodyMesh::Flat { triangles: SurfaceMesh::new(vertices, cells.flat_map(pair).collect()), thickness: THICKNESS }
+    BodyMesh::flat(SurfaceMesh::new(vertices, cells.flat_map(pair).collect()), THICKNESS)
 }
 
 #[cfg(test)]

@@ -1,0 +1,220 @@
+//! Properties of every element.
+
+use std::collections::{BTreeSet, HashMap};
+
+use fem_mesh::{Pattern, box_mesh, rectangle_mesh};
+use nalgebra::Matrix3;
+
+use super::*;
+use crate::BodyMesh;
+
+/// An irregular body of these elements.
+fn body(element: &Element) -> BodyMesh {
+    let linear = match element.dimension {
+        2 => BodyMesh::flat(rectangle_mesh([2.0, 1.0], 2, Pattern::Alternating).unwrap(), 0.1),
+        _ => BodyMesh::solid(box_mesh([2.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap()),
+    };
+    linear.of_order(element.order).unwrap()
+}
+
+/// Barycentric coordinates of each node.
+fn places(element: &Element) -> Vec<Vec<f64>> {
+    let at = |of: &[usize]| {
+        (0..element.corners()).map(|i| of.iter().filter(|&&k| k == i).count() as f64 / of.len() as f64).collect()
+    };
+    (0..element.corners()).map(|corner| at(&[corner])).chain(element.edges.iter().map(|edge| at(edge))).collect()
+}
+
+/// Barycentric coordinates of a few points inside.
+fn inside(element: &Element) -> Vec<Vec<f64>> {
+    let point = |k: usize| {
+        let L: Vec<f64> = (0..element.corners()).map(|i| 1.0 + ((5 * k + 3 * i) % 7) as f64).collect();
+        let sum: f64 = L.iter().sum();
+        L.into_iter().map(|L| L / sum).collect()
+    };
+    (0..5).map(point).collect()
+}
+
+fn centroid(mesh: &BodyMesh, nodes: &[usize]) -> Vector3<f64> {
+    nodes.iter().map(|&node| mesh.vertices()[node]).sum::<Vector3<f64>>() / nodes.len() as f64
+}
+
+#[test]
+fn no_two_elements_have_the_same_dimension_and_order_and_each_has_its_loops() {
+    let kinds: BTreeSet<_> = Element::ALL.iter().map(|element| (element.dimension, element.order)).collect();
+    assert_eq!(kinds.len(), Element::ALL.len());
+    for element in Element::ALL {
+        let mesh = body(element);
+        assert_eq!(mesh.element(), element);
+        assert_eq!(crate::with_elements!(&mesh, elements => elements[0].to_vec()), mesh.nodes_of(0));
+        assert_eq!(mesh.nodes_of(0).len(), element.nodes());
+    }
+}
+
+#[test]
+fn a_shape_function_is_one_at_its_node_and_zero_at_the_others_and_all_add_up_to_one() {
+    for element in Element::ALL {
+        for (node, place) in places(element).iter().enumerate() {
+            let expected: Vec<f64> = (0..element.nodes()).map(|i| f64::from(i == node)).collect();
+            assert_eq!(element.values(place), expected, "{}", element.name);
+        }
+        for L in inside(element) {
+            assert!((element.values(&L).iter().sum::<f64>() - 1.0).abs() < 1e-15, "{}", element.name);
+        }
+    }
+}
+
+#[test]
+fn gradients_are_those_of_finite_differences() {
+    for element in Element::ALL {
+        // Coordinates in which the barycentric ones are 1 − Σ x, x, y, z.
+        let unit = |axis: usize| std::array::from_fn::<f64, 3, _>(|j| f64::from(j == axis && j < element.dimension));
+        let first = unit(0).map(|_| -1.0);
+        let corners: Vec<_> = std::iter::once(first).chain((0..element.dimension).map(unit)).collect();
+        for L in inside(element) {
+            let gradients = element.gradients(&corners, &L);
+            for axis in 0..element.dimension {
+                let h = 1e-5;
+                let at = |h: f64| {
+                    let mut L = L.clone();
+                    (L[0], L[axis + 1]) = (L[0] - h, L[axis + 1] + h);
+                    element.values(&L)
+                };
+                let differences = at(h).into_iter().zip(at(-h)).map(|(after, before)| (after - before) / (2.0 * h));
+                for (gradient, difference) in gradients.iter().zip(differences) {
+                    assert!((gradient[axis] - difference).abs() < 1e-9, "{}: {gradient:?} {difference}", element.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_quadrature_is_exact_for_products_of_two_gradients() {
+    let factorial = |n: usize| (1..=n).product::<usize>() as f64;
+    for element in Element::ALL {
+        let degree = 2 * (element.order - 1);
+        for powers in (0..3_usize.pow(element.corners() as u32))
+            .map(|code| (0..element.corners()).map(|i| code / 3_usize.pow(i as u32) % 3).collect::<Vec<_>>())
+        {
+            if powers.iter().sum::<usize>() > degree {
+                continue;
+            }
+            let value = |L: &&[f64]| L.iter().zip(&powers).map(|(L, &power)| L.powi(power as i32)).product::<f64>();
+            let found = element.points.iter().map(value).sum::<f64>() / element.points.len() as f64;
+            let exact = factorial(element.dimension) * powers.iter().map(|&power| factorial(power)).product::<f64>()
+                / factorial(element.dimension + powers.iter().sum::<usize>());
+            assert!((found - exact).abs() < 1e-15, "{} {powers:?}: {found} {exact}", element.name);
+        }
+    }
+}
+
+#[test]
+fn faces_look_outward_and_close_the_element() {
+    for element in Element::ALL {
+        let mesh = body(element);
+        for number in 0..mesh.elements() {
+            let (nodes, middle) = (mesh.nodes_of(number), centroid(&mesh, mesh.corners_of(number)));
+            let mut sum = Vector3::zeros();
+            for face in element.faces {
+                let face: Vec<usize> = face.iter().map(|&node| nodes[node]).collect();
+                let area = element.area_vector(|i| mesh.vertices()[face[i]]);
+                assert!(area.dot(&(centroid(&mesh, &face) - middle)) > 0.0, "{}", element.name);
+                sum += area;
+            }
+            assert!(sum.norm() < 1e-15, "{}", element.name);
+        }
+    }
+}
+
+#[test]
+fn the_triangles_that_are_drawn_cover_the_surface_once_with_its_nodes_and_orientation() {
+    for element in Element::ALL {
+        let mesh = body(element);
+        let x = mesh.vertices();
+        let triangles = mesh.surface();
+        let area = |triangle: &[usize; 3]| fem_mesh::area_vector(triangle.map(|node| x[node]));
+        let found: f64 = triangles.iter().map(|triangle| area(triangle).norm()).sum();
+        let is_outward = match element.dimension {
+            2 => triangles.iter().all(|triangle| area(triangle).z > 0.0),
+            // The volume inside, by Gauss's theorem.
+            _ => (triangles.iter().map(|t| area(t).dot(&x[t[0]])).sum::<f64>() / 3.0 - 2.0).abs() < 1e-12,
+        };
+        let expected = if element.dimension == 2 { 2.0 } else { 10.0 };
+        assert!((found - expected).abs() < 1e-12 && is_outward, "{}: {found}", element.name);
+        let shown: BTreeSet<usize> = triangles.iter().flatten().copied().collect();
+        let outer: BTreeSet<usize> = mesh.faces().into_iter().flatten().collect();
+        assert!(outer.is_subset(&shown), "{}", element.name);
+        for (triangle, element) in triangles.iter().zip(mesh.elements_of_surface()) {
+            assert!(triangle.iter().all(|node| mesh.nodes_of(element).contains(node)));
+        }
+    }
+}
+
+#[test]
+fn the_faces_of_a_body_are_its_boundary() {
+    for element in Element::ALL {
+        let mesh = body(element);
+        let faces = mesh.faces();
+        let found: f64 = faces.iter().map(|face| mesh.area(face)).sum();
+        let expected = if element.dimension == 2 { 0.1 * 6.0 } else { 10.0 };
+        assert!((found - expected).abs() < 1e-12, "{}: {found}", element.name);
+        assert!(faces.iter().all(|face| face.len() == element.faces[0].len()));
+        let shape = crate::simulation::Shape { boundary: mesh.surface(), mesh, display: None, picture: None };
+        assert_eq!(shape.faces(), faces);
+    }
+}
+
+#[test]
+fn neighbours_share_the_nodes_at_the_middles_of_their_common_edges() {
+    for element in Element::ALL {
+        let mesh = body(element);
+        let mut middles: HashMap<[usize; 2], usize> = HashMap::new();
+        for ([a, b], middle) in (0..mesh.elements()).flat_map(|element| mesh.middles_of(element)) {
+            assert_eq!(mesh.vertices()[middle], 0.5 * (mesh.vertices()[a] + mesh.vertices()[b]));
+            assert_eq!(*middles.entry([a.min(b), a.max(b)]).or_insert(middle), middle);
+        }
+        let corners: BTreeSet<usize> = (0..mesh.elements()).flat_map(|e| mesh.corners_of(e)).copied().collect();
+        assert_eq!(mesh.vertices().len(), corners.len() + middles.len());
+    }
+}
+
+#[test]
+fn the_triangles_between_the_nodes_of_a_quadratic_element_are_those_of_one_refinement() {
+    for element in Element::ALL.into_iter().filter(|element| (element.dimension, element.order) == (2, 2)) {
+        let quadratic = body(element);
+        let linear = body(Element::ALL.into_iter().find(|linear| (linear.dimension, linear.order) == (2, 1)).unwrap());
+        let refined = linear.refined(1, "rectangle".as_ref()).unwrap();
+        assert_eq!((refined.vertices(), refined.surface()), (quadratic.vertices(), quadratic.surface()));
+    }
+}
+
+#[test]
+fn the_displacement_gradient_is_the_mean_of_those_at_the_quadrature_points() {
+    for element in Element::ALL {
+        let mesh = body(element);
+        let u = |node: usize| {
+            let x = mesh.vertices()[node];
+            Vector3::new(x.x * x.y, 0.3 * x.y * x.y - x.x, if element.dimension == 3 { x.z * x.x } else { 0.0 })
+        };
+        for number in 0..mesh.elements() {
+            let corners = mesh.corners_of(number);
+            let edge = |k: usize| match corners.get(k) {
+                Some(&corner) => mesh.vertices()[corner] - mesh.vertices()[corners[0]],
+                None => Vector3::z(),
+            };
+            let inverse = Matrix3::from_columns(&[edge(1), edge(2), edge(3)]).try_inverse().unwrap();
+            let others: Vec<[f64; 3]> = (0..element.dimension).map(|k| [0, 1, 2].map(|j| inverse[(k, j)])).collect();
+            let first = [0, 1, 2].map(|j| -others.iter().map(|other| other[j]).sum::<f64>());
+            let of_corners: Vec<_> = std::iter::once(first).chain(others).collect();
+            let at = |L: &&[f64]| -> Matrix3<f64> {
+                let gradients = element.gradients(&of_corners, L);
+                let terms = mesh.nodes_of(number).iter().zip(&gradients);
+                terms.map(|(&node, gradient)| u(node) * Vector3::from(*gradient).transpose()).sum()
+            };
+            let mean = element.points.iter().map(at).sum::<Matrix3<f64>>() / element.points.len() as f64;
+            let found = mesh.displacement_gradient(number, u);
+            assert!((found - mean).amax() < 1e-13, "{}: {found} {mean}", element.name);
+        }
+    }
+}
