@@ -62,8 +62,8 @@ macro_rules! lists {
 
 force_fields! { lists }
 
-/// `[central_gravity]`: gravity towards a point, as of a planet: the acceleration −μ d/(|d|² + ε²)^(3/2) of every part of the body, d being
-/// its place from the center. Engine only.
+/// `[central_gravity]`: gravity towards a point, as of a planet: the acceleration −μ d/(|d|² + ε²)^(3/2) of every part of the body, where d
+/// is the vector from the point. Engine only.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct CentralGravity {
@@ -71,7 +71,7 @@ pub struct CentralGravity {
     pub center: [f64; 3],
     /// μ, the constant of gravitation times the mass in the point, m³/s²; positive. At a distance r far above ε the acceleration is μ/r².
     pub strength: f64,
-    /// Softening length ε, m: the force is largest at a distance of ε/√2 and zero in the center, where without softening it is infinite. At
+    /// Softening length ε, m: the force is largest at a distance of ε/√2 and zero at the point, where without softening it is infinite. At
     /// least 0.
     #[serde(default)]
     pub softening: f64,
@@ -91,7 +91,10 @@ impl CentralGravity {
 
     fn check_on(&self, mesh: &BodyMesh) -> Result<(), Refusal> {
         if mesh.dimension() == 2 && self.center[2] != 0.0 {
-            let text = format!("has z = {}, which pulls a flat body out of its plane; give z = 0", self.center[2]);
+            let text = format!(
+                "has z = {}, and its force would move a flat body out of its plane; give z = 0",
+                self.center[2]
+            );
             return problem("central_gravity.center", text);
         }
         let distance = |x: &Vector3<f64>| (x - Vector3::from(self.center)).norm().hypot(self.softening);

@@ -1,8 +1,8 @@
-//! Gravity towards a point, of every node's mass m: V = −m μ/s with s² = |d|² + ε², d being the node's place from the center. Plummer, On the
+//! Gravity towards a point, of every node's mass m: V = −m μ/s with s² = |d|² + ε², where d is the vector from the point to the node. Plummer, On the
 //! Problem of Distribution in Globular Star Clusters (1911): the softening length ε keeps the force finite.
 //!
 //! The energy is counted from that of the undeformed body, m μ (s² − s₀²)/(s s₀ (s + s₀)) with s² − s₀² = u·(2 d₀ + u), which keeps its digits
-//! however far the center is. Its Hessian m μ ((1 − n nᵀ)/s³ + (s² − 3 |d|²)/s⁵ n nᵀ), n along d, is indefinite for |d| > s/√3.
+//! however far the point is. Its Hessian m μ ((1 − n nᵀ)/s³ + (s² − 3 |d|²)/s⁵ n nᵀ), n along d, is indefinite for |d| > s/√3.
 
 use fem_model::{Body, CentralGravity};
 use nalgebra::Vector3;

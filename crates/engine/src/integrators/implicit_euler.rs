@@ -10,7 +10,7 @@ use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia};
-use crate::newton::{Held, Newton};
+use crate::newton::{LastEvaluation, Newton};
 use crate::solvers::Solver;
 use fem_elements::Real;
 use fem_elements::history::{put, take};
@@ -88,7 +88,7 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
         Some(self.newton.solver())
     }
 
-    fn held(&self) -> Option<&Held<T>> {
-        Some(self.newton.held())
+    fn last_evaluation(&self) -> Option<&LastEvaluation<T>> {
+        Some(self.newton.last_evaluation())
     }
 }

@@ -49,7 +49,7 @@ pub use vbd::vbd;
 pub use verlet::Verlet;
 pub use xpbd::xpbd;
 
-pub use crate::newton::{Convergence, Held};
+pub use crate::newton::{Convergence, LastEvaluation};
 #[cfg(feature = "gpu")]
 pub(crate) use descent::color_nodes;
 #[cfg(feature = "gpu")]
@@ -190,8 +190,9 @@ pub trait Integrator<T: Real>: Memory + Send {
         None
     }
 
-    /// Reactions and damping at the end of the last step, if the method has kept them with the solution of its equation there.
-    fn held(&self) -> Option<&Held<T>> {
+    /// Reactions and damping at the [stage](Self::last_stage) of the last step, or at its end, if its equation was solved there; `None` for
+    /// methods that do not store them.
+    fn last_evaluation(&self) -> Option<&LastEvaluation<T>> {
         None
     }
 

@@ -33,23 +33,23 @@ pub struct Workspace<T> {
     product: Vec<[T; 3]>,
     /// Displacements at the end of the step, m; empty until they are needed.
     pub(super) end: Vec<[T; 3]>,
-    pub(super) held: Held<T>,
+    pub(super) last: LastEvaluation<T>,
 }
 
-/// Terms of the last evaluation of an incremental potential whose works the energy ledger takes.
+/// Terms of the last evaluation of an incremental potential: after a step, those of its solution. The energy ledger takes their work.
 #[derive(Clone, Debug, Default)]
-pub struct Held<T> {
-    /// Forces of prescribed motions on the constrained degrees of freedom, N; empty without.
+pub struct LastEvaluation<T> {
+    /// Reactions on the constrained degrees of freedom, N; empty without prescribed motions.
     pub reactions: Vec<[T; 3]>,
-    /// Energy of damping, J: half of what a step of implicit Euler dissipates.
-    pub damping: f64,
+    /// Forces of damping against the motion, N; empty without.
+    pub damping: Vec<[T; 3]>,
 }
 
 impl<T: Real> Workspace<T> {
     /// Allocates vectors for so many nodes.
     pub fn new(nodes: usize) -> Self {
         let zero = || vec![[T::default(); 3]; nodes];
-        Self { u: zero(), difference: zero(), product: zero(), end: Vec::new(), held: Held::default() }
+        Self { u: zero(), difference: zero(), product: zero(), end: Vec::new(), last: LastEvaluation::default() }
     }
 
     pub(super) fn set_u(&mut self, start: &[[T; 3]], w: &[[T; 3]]) {
@@ -80,7 +80,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         let of_followers = self.add_followers(&workspace.u, gradient);
         let kinetic = inertia.map_or(Energy::default(), |inertia| self.add_inertia(&inertia, w, gradient, workspace));
         if self.system.dirichlet.has_motion() {
-            let reactions = &mut workspace.held.reactions;
+            let reactions = &mut workspace.last.reactions;
             reactions.resize(gradient.len(), [T::default(); 3]);
             self.system.dirichlet.copy_constrained(gradient, reactions);
         }
@@ -154,7 +154,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         gradient: &mut [[T; 3]],
         workspace: &mut Workspace<T>,
     ) -> Energy {
-        let Workspace { difference, product, held, .. } = workspace;
+        let Workspace { difference, product, last, .. } = workspace;
         difference.copy_from_slice(inertia.inertial);
         subtract_from(w, difference);
         clear(product);
@@ -165,8 +165,9 @@ impl<T: Real> IncrementalPotential<'_, T> {
             clear(product);
             let stiffness_at = inertia.stiffness_at.unwrap_or(self.increment.start);
             self.system.add_damping_times(rates, stiffness_at, moved, product);
-            held.damping = add_and_multiply(moved, product, gradient);
-            energy = energy + Energy::of(held.damping);
+            energy = energy + Energy::of(add_and_multiply(moved, product, gradient));
+            last.damping.resize(product.len(), [T::default(); 3]);
+            std::mem::swap(&mut last.damping, product);
         }
         energy
     }

@@ -25,7 +25,7 @@ use fem_elements::Real;
 use fem_elements::history::{put, put_flag, put_option, take, take_flag, take_option};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{max_norm, norm};
-pub use incremental_potential::Held;
+pub use incremental_potential::LastEvaluation;
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;
 
@@ -175,9 +175,9 @@ impl<T: Real> Newton<T> {
         self.solver
     }
 
-    /// Terms of the last evaluation, which is that of the solution after a step.
-    pub fn held(&self) -> &Held<T> {
-        &self.workspace.held
+    /// The last evaluation, which is that of the solution after a step.
+    pub fn last_evaluation(&self) -> &LastEvaluation<T> {
+        &self.workspace.last
     }
 
     /// Evaluates the energy and its gradient at w. Returns `None` if the energy is not finite: the iteration cannot start there.

@@ -11,6 +11,7 @@ use super::Simulator;
 use super::energies::{Bounds, is_changing_load};
 use crate::forces::Moment;
 use crate::forces::contact::friction::tangential;
+use crate::integrators::LastEvaluation;
 use crate::model::reactions::{End, Unbalanced, write_between};
 use crate::model::system::System;
 use fem_elements::Real;
@@ -65,6 +66,8 @@ pub(super) struct LastForces<T> {
     pub(super) loads: Vec<[T; 3]>,
     /// Of the prescribed motions on the body, N.
     pub(super) reactions: Vec<[T; 3]>,
+    /// Of damping against the motion, N.
+    damping: Vec<[T; 3]>,
     /// Of the velocities.
     pub(super) bounds: Option<Bounds>,
 }
@@ -74,6 +77,7 @@ impl<T: Real> LastForces<T> {
     pub(super) fn forget(&mut self) {
         self.loads.clear();
         self.reactions.clear();
+        self.damping.clear();
         self.bounds = None;
     }
 
@@ -81,12 +85,15 @@ impl<T: Real> LastForces<T> {
     pub(super) fn save(&self, history: &mut History) {
         put(history, "ledger.load_forces", self.loads.as_flattened());
         put(history, "ledger.reactions", self.reactions.as_flattened());
+        put(history, "ledger.damping", self.damping.as_flattened());
     }
 
     /// Restores the forces that [`save`](Self::save) has added.
     pub(super) fn restore(&mut self, history: &History, nodes: usize) -> Result<(), String> {
         self.bounds = None;
-        for (name, vector) in [("ledger.load_forces", &mut self.loads), ("ledger.reactions", &mut self.reactions)] {
+        let Self { loads, reactions, damping, .. } = self;
+        let vectors = [("ledger.load_forces", loads), ("ledger.reactions", reactions), ("ledger.damping", damping)];
+        for (name, vector) in vectors {
             let (found, _) = history.get(name)?.as_chunks::<3>();
             if !found.is_empty() && found.len() != nodes {
                 return Err(format!("its history has {} nodes of `{name}` and not {nodes}", found.len()));
@@ -100,7 +107,7 @@ impl<T: Real> LastForces<T> {
 /// Vectors that works overwrite.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Room<T> {
-    /// Change of the displacements in the step, m; that of constrained ones alone where reactions do work.
+    /// Change of the displacements in the step, m; that of constrained ones alone once the work of reactions is known.
     change: Vec<[T; 3]>,
     /// Any.
     pub(super) other: Vec<[T; 3]>,
@@ -125,27 +132,23 @@ impl<T: Real> Simulator<T> {
         if let Some(of_stages) = integrator.work_of_stages() {
             work.motions = of_stages.motions + of_stages.jump;
             [work.rayleigh, work.dampers] = [of_stages.rayleigh, of_stages.dampers];
-        } else if let Some(held) = integrator.held().filter(|_| !system.has_dampers() || system.damping.is_none()) {
-            // Twice its energy, whole: of Rayleigh's damping or of dampers.
-            let damped = if system.has_dampers() { &mut work.dampers } else { &mut work.rayleigh };
-            *damped = if is_damped { 2.0 * held.damping } else { 0.0 };
-            if has_motion {
-                write_difference(&state.u, &before.u, &mut room.change);
-                system.dirichlet.clear_free(&mut room.change);
-                work.motions = dot(&held.reactions, &room.change);
-            }
-        } else {
+        } else if is_damped || has_motion {
+            write_difference(&state.u, &before.u, &mut room.change);
+            let evaluation = integrator.last_evaluation();
             if is_damped {
-                // Halfway the increment of a rotation strains nothing, as a step's own matrix of viscosity.
-                let part = if system.has_viscosity() { 0.5 } else { 0.0 };
-                write_between(&before.u, &state.u, part, &mut room.other);
-                write_difference(&state.u, &before.u, &mut room.change);
-                let powers = system.damping_powers(&room.other, &room.change, &mut room.unbalanced.force);
-                [work.rayleigh, work.dampers] = powers.map(|power| power / dt);
+                [work.rayleigh, work.dampers] = self.work_of_damping(evaluation, room);
             }
             if has_motion {
-                work.motions = self.work_of_motions(room) + integrator.work_of_jump();
-                std::mem::swap(&mut last.reactions, &mut room.unbalanced.force);
+                work.motions = self.work_of_motions(evaluation, room) + integrator.work_of_jump();
+            }
+            match evaluation {
+                Some(_) if takes_forces_at_end(*kind) => {}
+                Some(LastEvaluation { reactions, damping }) => {
+                    last.reactions.clone_from(reactions);
+                    last.damping.clone_from(damping);
+                }
+                None if has_motion => std::mem::swap(&mut last.reactions, &mut room.unbalanced.force),
+                None => {}
             }
         }
         if system.forces.active().any(|(potential, _)| is_changing_load(potential)) {
@@ -166,29 +169,53 @@ impl<T: Real> Simulator<T> {
         work
     }
 
-    /// Work of the reactions in a step of an implicit method, J. Leaves the reactions at its end or at its stage in the room, N.
-    fn work_of_motions(&self, room: &mut Room<T>) -> f64 {
+    /// Energies that Rayleigh damping and dampers dissipate in a step of an implicit method, J.
+    fn work_of_damping(&self, evaluation: Option<&LastEvaluation<T>>, room: &mut Room<T>) -> [f64; 2] {
+        let Self { system, state, last_good: before, substep_dt: dt, kind, last_forces, .. } = self;
+        let is_known = takes_forces_at_end(*kind) || !last_forces.damping.is_empty();
+        match evaluation.filter(|_| is_known) {
+            // An evaluation knows their sum alone.
+            Some(LastEvaluation { damping, .. }) if system.damping.is_none() => {
+                [0.0, self.work_of(damping, &last_forces.damping, &room.change)]
+            }
+            Some(LastEvaluation { damping, .. }) if !system.has_dampers() => {
+                [self.work_of(damping, &last_forces.damping, &room.change), 0.0]
+            }
+            _ => {
+                // Halfway the increment of a rotation strains nothing, as a step's own matrix of viscosity.
+                let part = if system.has_viscosity() { 0.5 } else { 0.0 };
+                write_between(&before.u, &state.u, part, &mut room.other);
+                let powers = system.damping_powers(&room.other, &room.change, &mut room.unbalanced.force);
+                powers.map(|power| power / dt)
+            }
+        }
+    }
+
+    /// Work of the reactions in a step of an implicit method, J. Where there is no evaluation, it leaves them in the room, N.
+    fn work_of_motions(&self, evaluation: Option<&LastEvaluation<T>>, room: &mut Room<T>) -> f64 {
         let Self { integrator, system, state, last_good: before, substep_dt: dt, kind, last_forces, .. } = self;
         let Room { change, unbalanced, .. } = room;
-        write_difference(&state.u, &before.u, change);
         system.dirichlet.clear_free(change);
+        if let Some(LastEvaluation { reactions, .. }) = evaluation {
+            return self.work_of(reactions, &last_forces.reactions, change);
+        }
         let end = End { time: before.time + dt, ..End::of(state) };
-        let part = match integrator.last_stage().filter(|_| !takes_forces_at_end(*kind)) {
-            Some(stage) => {
-                unbalanced.at_stage(system, before, end, (stage.part, stage.acceleration));
-                stage.part
-            }
-            None => {
-                unbalanced.at_end(system, before, end, Moment::at(end.time));
-                1.0
-            }
-        };
-        let work = dot(&unbalanced.force, change);
-        if takes_forces_at_end(*kind) || last_forces.reactions.is_empty() {
+        match integrator.last_stage().filter(|_| !takes_forces_at_end(*kind)) {
+            Some(stage) => unbalanced.at_stage(system, before, end, (stage.part, stage.acceleration)),
+            None => unbalanced.at_end(system, before, end, Moment::at(end.time)),
+        }
+        self.work_of(&unbalanced.force, &last_forces.reactions, change)
+    }
+
+    /// Work of a force that is known at a step's stage, and perhaps at that of the last step, J: linear between the two, with its value
+    /// halfway through the step.
+    fn work_of(&self, force: &[[T; 3]], at_last: &[[T; 3]], change: &[[T; 3]]) -> f64 {
+        let work = dot(force, change);
+        if takes_forces_at_end(self.kind) || at_last.is_empty() {
             return work;
         }
-        // Linear between the stage of the last step and that of this one.
-        (1.5 - part) * work + (part - 0.5) * dot(&last_forces.reactions, change)
+        let part = self.integrator.last_stage().map_or(1.0, |stage| stage.part);
+        (1.5 - part) * work + (part - 0.5) * dot(at_last, change)
     }
 
     /// Work of moving obstacles in a step, and the energy that friction on obstacles dissipates, J.

@@ -3,7 +3,7 @@
 use fem_model::simulation::{Cause, EnergyLedger, Simulation};
 
 use crate::vibrations::{bathes_factor, frequency, oscillator};
-use crate::{build, of_law, run, soft};
+use crate::{build, of_law, run, side, soft};
 
 /// The ledger after so many steps.
 fn ledger(simulation: &mut dyn Simulation, steps: usize) -> EnergyLedger {
@@ -64,6 +64,23 @@ fn the_account_of_a_driven_damped_and_plastic_body_is_balanced_as_the_step_falls
             gain < 0.02 && coarse.abs() < 0.05 && fine.abs() < 0.6 * coarse.abs() + 1e-3,
             "{method}: {coarse} {fine} {gain}"
         );
+    }
+}
+
+#[test]
+fn the_account_of_a_linear_body_closes_with_the_forces_that_each_step_has_found() {
+    let fixed = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[damping]\nalpha = 2\nbeta = 1e-3\n";
+    let let_go = format!("{fixed}[[initial_velocity]]\nvelocity = [0, 1, 0.5]\n");
+    // Velocities of a prescribed motion are exact, and not those of the method.
+    let driven = format!("{fixed}{}curve = {{ sine = {{ frequency = 5.0 }} }}\n", side("x", "max", 0.05));
+    for (rest, largest) in [(let_go, 1e-6), (driven, 5e-4)] {
+        // These methods dissipate nothing themselves.
+        for method in ["implicit_midpoint", "newmark"] {
+            let mut simulation = build(&of_law("linear", &soft(method, 2e-3, &rest)));
+            let [early, late] = [10, 90].map(|steps| ledger(&mut *simulation, steps));
+            let left = (late.numerical() - early.numerical()).abs() / late.turned_over;
+            assert!(late.rayleigh > 0.1 * late.turned_over && left < largest, "{method}: {left:e} in {late:?}");
+        }
     }
 }
 

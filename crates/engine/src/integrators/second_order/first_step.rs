@@ -62,6 +62,7 @@ impl<T: Real> SecondOrder<T> {
         self.of_implicit_euler(system, state, half, counters)?;
         *state = end;
         (self.stage, self.acceleration, self.next.mean) = (stage, of_step, mean);
+        self.has_evaluation = false;
         self.next.dt = Some(dt);
         // The step may be repeated.
         self.known.has_acceleration = false;

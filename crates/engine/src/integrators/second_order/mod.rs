@@ -24,7 +24,7 @@ use super::{Convergence, Integrator, LastStage, Memory};
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::newton::Newton;
+use crate::newton::{LastEvaluation, Newton};
 use crate::solvers::Solver;
 use coefficients::Coefficients;
 use fem_elements::Real;
@@ -129,6 +129,8 @@ pub struct SecondOrder<T: Real> {
     acceleration: Vec<[T; 3]>,
     /// θ of the last step.
     stage: Option<f64>,
+    /// True if Newton's last evaluation is that of the last step's stage, with all forces there.
+    has_evaluation: bool,
     /// True if each step estimates its error.
     estimates: bool,
     /// Error estimate of the last step, m.
@@ -160,6 +162,7 @@ impl<T: Real> SecondOrder<T> {
             velocity: zero(),
             acceleration: zero(),
             stage: None,
+            has_evaluation: false,
             estimates,
             error: None,
             before: vec![[T::default(); 3]; if estimates { system.nodes() } else { 0 }],
@@ -199,28 +202,6 @@ impl<T: Real> SecondOrder<T> {
             known.age = Some(0.0);
         }
         Ok(())
-    }
-}
-
-impl<T: Real> SecondOrder<T> {
-    /// A step of Bathe's method. The state for this step stays, since the step may be repeated.
-    fn two_stages(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        dt: f64,
-        counters: &mut Counters,
-    ) -> Result<Convergence, Cause> {
-        let (time, part) = (state.time, bathe::STAGE * dt);
-        let (stage, end) = (Moment::at(time + part), Moment::at(time + dt));
-        let first = self.advance(system, state, (part, stage), &bathe::first_stage(dt), counters)?;
-        std::mem::swap(&mut self.known, &mut self.middle);
-        std::mem::swap(&mut self.known, &mut self.next);
-        state.time = time + part;
-        let second = self.advance(system, state, (dt - part, end), &bathe::second_stage(dt), counters);
-        state.time = time;
-        std::mem::swap(&mut self.known, &mut self.middle);
-        Ok(if second? == Convergence::Converged { first } else { Convergence::NotConverged })
     }
 }
 
@@ -270,6 +251,8 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
         if self.estimates {
             self.before.copy_from_slice(&state.v);
         }
+        // Forces of obstacles act at the end.
+        self.has_evaluation = !system.forces.has_obstacles();
         let convergence = match self.scheme.coefficients(dt, before) {
             _ if self.scheme.has_acceleration() && !self.known.has_acceleration => {
                 self.settle(system, state, dt, counters)?
@@ -287,6 +270,10 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
 
     fn solver(&self) -> Option<&Solver<T>> {
         Some(self.newton.solver())
+    }
+
+    fn last_evaluation(&self) -> Option<&LastEvaluation<T>> {
+        self.has_evaluation.then(|| self.newton.last_evaluation())
     }
 
     fn last_stage(&self) -> Option<LastStage<'_, T>> {
