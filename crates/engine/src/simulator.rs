@@ -150,9 +150,8 @@ impl<T: Real> Simulator<T> {
         let law = check::<T>(&body, method, T::EPSILON.as_f64())?;
         let method = method.clone();
         let mesh = &body.shape.mesh;
-        let (X, tetrahedra) = (mesh.vertices(), mesh.tetrahedra());
-        let shown = body.shape.display.as_ref().filter(|_| !tetrahedra.is_empty());
-        let skinning = shown.map(|shown| Skinning::new(X, tetrahedra, &shown.vertices));
+        let shown = body.shape.display.as_ref().filter(|_| mesh.dimension() == 3);
+        let skinning = shown.map(|shown| Skinning::new(mesh, &shown.vertices));
         let solver = integrator::solver_choice(&method, &body);
         let velocities = body.initial_velocity.clone();
         let mut plan = Plan::new(&body);

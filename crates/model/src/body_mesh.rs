@@ -168,13 +168,21 @@ impl BodyMesh {
         &self.sets
     }
 
-    /// The nodes of a named part, ascending.
+    /// The nodes of a named part, ascending: those at the middles of its edges and of the edges of its faces too.
     pub fn nodes_of_set(&self, set: &MeshSet) -> Vec<usize> {
-        let mut all: BTreeSet<usize> = set.nodes(|element| self.nodes_of(element)).into_iter().collect();
-        let edges: BTreeSet<[usize; 2]> = set.edges.iter().copied().collect();
+        let nodes = set.nodes(|element| self.nodes_of(element));
+        self.with_middles(nodes, &set.edges, &set.faces)
+    }
+
+    /// Nodes and those at the middles of edges and of the edges of triangles, ascending.
+    pub fn with_middles(&self, nodes: Vec<usize>, edges: &[[usize; 2]], faces: &[[usize; 3]]) -> Vec<usize> {
+        let mut all: BTreeSet<usize> = nodes.into_iter().collect();
+        let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let ascending = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+        let edges: BTreeSet<[usize; 2]> = edges.iter().copied().chain(sides).map(ascending).collect();
         let middles = (0..self.elements())
             .flat_map(|element| self.middles_of(element))
-            .filter(|(ends, _)| edges.contains(&[ends[0].min(ends[1]), ends[0].max(ends[1])]));
+            .filter(|(ends, _)| edges.contains(&ascending(*ends)));
         all.extend(middles.map(|(_, middle)| middle));
         all.into_iter().collect()
     }
@@ -331,6 +339,8 @@ macro_rules! with_elements {
         } else if let Some($elements) = mesh.arrays::<4>() {
             $value
         } else if let Some($elements) = mesh.arrays::<6>() {
+            $value
+        } else if let Some($elements) = mesh.arrays::<10>() {
             $value
         } else {
             unreachable!("no element has {} nodes", mesh.element().nodes())

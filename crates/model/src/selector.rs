@@ -95,13 +95,18 @@ impl Selector {
 }
 
 /// The nodes that a selector of `table` names, such as `fixed` or `prescribed[0]`: ascending, without repeats, at least one. A
-/// set of the mesh gives the nodes of its triangles, edges and points, or of its elements if it has nothing else.
+/// set of the mesh gives the nodes of its triangles, edges and points, or of its elements if it has nothing else. Triangles and edges have the
+/// nodes at the middles of their edges.
 pub fn nodes(table: &str, selector: &Selector, mesh: &BodyMesh) -> Result<Vec<usize>, Refusal> {
     let nodes = match selector {
         Selector::Set(name) => mesh.nodes_of_set(set(table, name, mesh)?),
         Selector::Nodes(nodes) => listed(&format!("{table}.nodes"), nodes, mesh)?,
-        Selector::Faces(faces) => listed(&format!("{table}.faces"), faces.as_flattened(), mesh)?,
-        Selector::Edges(edges) => listed(&format!("{table}.edges"), edges.as_flattened(), mesh)?,
+        Selector::Faces(faces) => {
+            mesh.with_middles(listed(&format!("{table}.faces"), faces.as_flattened(), mesh)?, &[], faces)
+        }
+        Selector::Edges(edges) => {
+            mesh.with_middles(listed(&format!("{table}.edges"), edges.as_flattened(), mesh)?, edges, &[])
+        }
         Selector::Region(region) => {
             let is_inside = inside(region, mesh);
             (0..mesh.vertices().len()).filter(|&node| is_inside(&mesh.vertices()[node])).collect()

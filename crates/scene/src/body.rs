@@ -90,9 +90,7 @@ fn checked(scene: &Scene, mesh: BodyMesh) -> Result<BodyMesh, SceneError> {
     let mesh = refined.map_err(|error| mesh_error(scene, "mesh.refine", error))?;
     let (order, name) = (scene.mesh.order, mesh.element().name);
     mesh.of_order(order as usize).ok_or_else(|| {
-        let text = format!(
-            "is {order}, and this body has {name}, which are linear; write 1, and refine = 1 for more elements"
-        );
+        let text = format!("is {order}, and there are no {name} of this order; write 1, or 2");
         scene.refuse("mesh.order", &text)
     })
 }

@@ -38,12 +38,13 @@ fn locking(body: &Body) -> impl Iterator<Item = String> {
 /// Bodies of `mesh.files` that lie in one another.
 fn overlaps(scene: &Scene, body: &Body) -> Vec<String> {
     let (Some(files), mesh) = (&scene.mesh.files, &body.shape.mesh) else { return Vec::new() };
+    let corners: Vec<[usize; 4]> = mesh.corners().filter_map(|nodes| nodes.first_chunk().copied()).collect();
     let mut names: Vec<String> = files.iter().map(|file| name_of(file)).collect();
     names.dedup();
     let pairs = (0..names.len()).flat_map(|j| (0..j).map(move |i| [i, j])).map(|pair| pair.map(|i| &names[i]));
     let warning = |[a, b]: [&String; 2]| {
         let [of_a, of_b] = [a, b].map(|name| mesh.sets().get(name).map_or(&[][..], |set| &set.elements));
-        let [least, largest] = fem_mesh::overlap(mesh.vertices(), mesh.tetrahedra(), of_a, of_b)?
+        let [least, largest] = fem_mesh::overlap(mesh.vertices(), &corners, of_a, of_b)?
             .map(|x| format!("({:.4}, {:.4}, {:.4})", x.x, x.y, x.z));
         Some(format!(
             "mesh.files: the bodies {a:?} and {b:?} overlap, from {least} to {largest} m, and nothing keeps them apart; move one of them, or \

@@ -1,8 +1,9 @@
 //! `mesh convert`: from one format to another, with repairs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use fem_mesh::{AnyMesh, Mesh, MeshError, MeshFile};
+use fem_model::BodyMesh;
 
 use super::{tell, write_surface, write_tetrahedra};
 
@@ -17,11 +18,14 @@ pub struct Arguments {
     /// Leave out elements without a size and those that repeat another
     #[arg(long)]
     clean: bool,
+    /// Put a node on the middle of every edge: quadratic elements (.inp, .msh, .vtu, .vtk)
+    #[arg(long)]
+    quadratic: bool,
 }
 
 /// Reads tetrahedra or triangles and writes them as the extension of `to` says.
 pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
-    let Arguments { from, to, orient, clean } = arguments;
+    let Arguments { from, to, orient, clean, quadratic } = arguments;
     let MeshFile { mesh, mut notes, .. } = fem_mesh::read_file(from)?;
     let lost = match mesh {
         AnyMesh::Tetrahedra(mesh) => {
@@ -31,7 +35,11 @@ pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
                 notes.push(turned(count));
             }
             fem_mesh::check(&mesh, from)?;
-            write_tetrahedra(to, &mesh)?;
+            if *quadratic {
+                write_quadratic::<10>(to, BodyMesh::solid(mesh.clone()))?;
+            } else {
+                write_tetrahedra(to, &mesh)?;
+            }
             fem_mesh::write::lost_sets(to, &mesh)
         }
         AnyMesh::Triangles(mesh) => {
@@ -45,12 +53,24 @@ pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
                 notes.push(turned(pairs.filter(|(before, after)| before != after).count()));
                 mesh = oriented;
             }
-            write_surface(to, &mesh)?;
+            if *quadratic {
+                write_quadratic::<6>(to, BodyMesh::flat(mesh.clone(), 1.0))?;
+            } else {
+                write_surface(to, &mesh)?;
+            }
             fem_mesh::write::lost_sets(to, &mesh)
         }
     };
     tell(from, &notes);
     lost.iter().for_each(|lost| eprintln!("warning: {}: {lost}", to.display()));
+    Ok(())
+}
+
+fn write_quadratic<const N: usize>(to: &Path, mesh: BodyMesh) -> Result<(), MeshError> {
+    // There are elements of either shape with nodes at the middles of their edges.
+    let Some(mesh) = mesh.of_order(2).and_then(|mesh| mesh.mesh::<N>()) else { return Ok(()) };
+    fem_mesh::write::write_quadratic(to, &mesh)?;
+    say!("{}: {} nodes, {} quadratic elements", to.display(), mesh.vertices.len(), mesh.elements.len());
     Ok(())
 }
 

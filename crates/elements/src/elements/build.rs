@@ -21,6 +21,9 @@ pub(super) const NONE: u32 = u32::MAX;
 /// in the plane, m²).
 type Shape<const D: usize, const E: usize> = ([[f64; D]; E], f64);
 
+/// The shape by the number of an element, that of its quadrature point, and its nodes in ascending order.
+type ShapeOf<'a, const D: usize, const E: usize, const N: usize> = &'a dyn Fn(usize, usize, &[u32; N]) -> Shape<D, E>;
+
 impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
     /// Simplices with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
     /// stiffness. Without rows the elements have forces alone, until [`set_pattern`](Self::set_pattern).
@@ -31,7 +34,7 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E,
     /// The same with a factor on the energy of each element; `factors` is empty where all are 1.
     pub fn stiffened(positions: &[Vector3<f64>], elements: &[[u32; N]], factors: &[f64], pattern: &Pattern) -> Self {
         assert_eq!([N, E], [D + 1, D], "a simplex in {D} dimensions has {} corners", D + 1);
-        let shape = |element: usize, corners: &[u32; N]| {
+        let shape = |element: usize, _: usize, corners: &[u32; N]| {
             let (inverse, volume) = simplex::<D, N>(corners, positions, factors.get(element).copied().unwrap_or(1.0));
             (std::array::from_fn(|e| std::array::from_fn(|j| inverse[(e, j)])), volume)
         };
@@ -39,7 +42,7 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E,
     }
 
     /// Elements of any order with their nodes in the order of the mesh. Each becomes an element for each of its quadrature points: with `P` of
-    /// them, element P e + k is point k of element e. `factors` is as for [`stiffened`](Self::stiffened), one for each element.
+    /// them, element P e + k is point k of element e. Points of quadratic tetrahedra share one sum. `factors` is as for [`stiffened`](Self::stiffened), one for each element.
     pub fn at_points(
         kind: &Element,
         positions: &[Vector3<f64>],
@@ -48,16 +51,18 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E,
         pattern: &Pattern,
     ) -> Self {
         let count = kind.points.len();
-        let points: Vec<[u32; N]> = elements.iter().flat_map(|&nodes| std::iter::repeat_n(nodes, count)).collect();
-        let shape = |point: usize, ascending: &[u32; N]| {
-            let nodes = &elements[point / count];
-            let factor = factors.get(point / count).copied().unwrap_or(1.0);
+        // Points that are not added up before they are scattered.
+        let apart = count / Self::POINTS;
+        let copies: Vec<[u32; N]> = elements.iter().flat_map(|&nodes| std::iter::repeat_n(nodes, apart)).collect();
+        let shape = |copy: usize, point: usize, ascending: &[u32; N]| {
+            let nodes = &elements[copy / apart];
+            let factor = factors.get(copy / apart).copied().unwrap_or(1.0);
             let (inverse, volume) = simplex::<D, N>(nodes, positions, factor);
-            let gradients = kind.gradients(&of_corners(&inverse), kind.points[point % count]);
+            let gradients = kind.gradients(&of_corners(&inverse), kind.points[copy % apart + point]);
             let of_node = |node: u32| nodes.iter().position(|&other| other == node).map_or([0.0; D], |i| gradients[i]);
             (std::array::from_fn(|e| of_node(ascending[e + 1])), volume / count as f64)
         };
-        Self::of_shapes(positions.len(), &points, pattern, &shape)
+        Self::of_shapes(positions.len(), &copies, pattern, &shape)
     }
 
     /// Prepares the assembly of matrices with another pattern: finds the block of each pair of nodes.
@@ -67,15 +72,10 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E,
         }
     }
 
-    /// Elements with the shapes that `shape` gives for the number of an element and its nodes in ascending order.
-    fn of_shapes(
-        nodes: usize,
-        elements: &[[u32; N]],
-        pattern: &Pattern,
-        shape: &dyn Fn(usize, &[u32; N]) -> Shape<D, E>,
-    ) -> Self {
+    /// Elements with the shapes that `shape` gives for the number of an element, that of its quadrature point, and its nodes in ascending order.
+    fn of_shapes(nodes: usize, elements: &[[u32; N]], pattern: &Pattern, shape: ShapeOf<D, E, N>) -> Self {
         let chunks = chunk_ranges(nodes).map(|nodes| chunk(nodes, elements, pattern, shape)).collect();
-        Self { chunks, count: elements.len() }
+        Self { chunks, count: elements.len() * Self::POINTS }
     }
 }
 
@@ -88,7 +88,7 @@ fn chunk<T: Float, const D: usize, const E: usize, const N: usize>(
     nodes: Range<usize>,
     elements: &[[u32; N]],
     pattern: &Pattern,
-    shape: &dyn Fn(usize, &[u32; N]) -> Shape<D, E>,
+    shape: ShapeOf<D, E, N>,
 ) -> Chunk<T, D, E, N> {
     let touches = |element: &[u32; N]| element.iter().any(|&node| nodes.contains(&(node as usize)));
     let all = 0..elements.len() as u32;
@@ -96,20 +96,26 @@ fn chunk<T: Float, const D: usize, const E: usize, const N: usize>(
     // Neighbours in memory are neighbours in space, as far as the numbers of nodes are.
     chosen.sort_by_key(|&element| elements[element as usize].iter().min().copied());
 
-    let mut corners: Vec<[u32; N]> = chosen.iter().map(|&element| ascending(elements[element as usize])).collect();
-    let of_element = |(corners, &element): (&[u32; N], &u32)| shape(element as usize, corners);
-    let shapes: Vec<_> = corners.iter().zip(&chosen).map(of_element).collect();
-    let owned: Vec<bool> = corners
-        .iter()
-        .map(|corners| corners.iter().min().is_some_and(|&least| nodes.contains(&(least as usize))))
-        .collect();
-    let batches = (0..chosen.len().div_ceil(T::WIDTH))
-        .map(|i| batch::<T, D, E>(i * T::WIDTH, &shapes, &owned))
-        .collect::<Vec<_>>();
-
-    let filling = batches.len() * T::WIDTH - chosen.len();
-    corners.extend(std::iter::repeat_n([nodes.start as u32; N], filling));
-    let mut chunk = Chunk { nodes, blocks: 0..0, corners, targets: Vec::new(), batches, elements: chosen };
+    let points = Elements::<T, D, E, N>::POINTS;
+    let count = chosen.len();
+    // Copies of the last element, without volume, fill the last batch.
+    let filling = count.next_multiple_of(T::WIDTH) - count;
+    chosen.extend(chosen.last().map(|&last| std::iter::repeat_n(last, filling)).into_iter().flatten());
+    let corners: Vec<[u32; N]> = chosen.iter().map(|&element| ascending(elements[element as usize])).collect();
+    let batch = |i: usize| {
+        let of_lane = |lane: usize| {
+            let place = i / points * T::WIDTH + lane;
+            let (gradients, volume) = shape(chosen[place] as usize, i % points, &corners[place]);
+            (gradients, if place < count { volume } else { 0.0 })
+        };
+        let is_counted = |lane: usize| nodes.contains(&(corners[i / points * T::WIDTH + lane][0] as usize));
+        batch::<T, D, E>(&(0..T::WIDTH).map(of_lane).collect::<Vec<_>>(), &is_counted)
+    };
+    let batches: Vec<_> = (0..corners.len() / T::WIDTH * points).map(batch).collect();
+    let number = |i: usize, lane: usize| chosen[i / points * T::WIDTH + lane] * points as u32 + (i % points) as u32;
+    let numbers = (0..batches.len()).flat_map(|i| (0..T::WIDTH).map(move |lane| (i, lane)));
+    let numbers = numbers.map(|(i, lane)| number(i, lane)).collect();
+    let mut chunk = Chunk { nodes, count, blocks: 0..0, corners, targets: Vec::new(), batches, elements: numbers };
     if pattern.rows() > 0 {
         chunk.set_pattern(pattern);
     }
@@ -120,9 +126,9 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Chunk<T, D, E, N>
     fn set_pattern(&mut self, pattern: &Pattern) {
         let rows = self.nodes.start.min(pattern.rows())..self.nodes.end.min(pattern.rows());
         self.blocks = pattern.starts[rows.start]..pattern.starts[rows.end];
-        let corners = self.corners[..self.elements.len()].iter();
+        let corners = self.corners[..self.count].iter();
         self.targets = corners.map(|corners| target(corners, &rows, self.blocks.start, pattern)).collect();
-        // Elements of no volume fill the last batch.
+        // Elements without volume fill the last batch.
         self.targets.resize(self.corners.len(), [[NONE; N]; N]);
     }
 }
@@ -177,21 +183,18 @@ fn inverse_and_determinant<const D: usize>(a: &SMatrix<f64, D, D>) -> (SMatrix<f
 }
 
 fn batch<T: Float, const D: usize, const E: usize>(
-    first: usize,
     shapes: &[Shape<D, E>],
-    owned: &[bool],
+    is_counted: &dyn Fn(usize) -> bool,
 ) -> Batch<T::Lanes, D, E> {
-    let volume = |lane: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.1);
-    let gradient = |lane: usize, e: usize, j: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.0[e][j]);
-    let counts = |lane: usize| owned.get(first + lane).copied().unwrap_or(false);
+    let volume = |lane: usize| T::of(shapes[lane].1);
     let mut batch = Batch {
         gradients: [[T::Lanes::zero(); D]; E],
-        volume: T::lanes(|lane| T::of(volume(lane))),
-        counted: T::lanes(|lane| T::of(if counts(lane) { volume(lane) } else { 0.0 })),
+        volume: T::lanes(volume),
+        counted: T::lanes(|lane| if is_counted(lane) { volume(lane) } else { T::default() }),
     };
     for e in 0..E {
         for j in 0..D {
-            batch.gradients[e][j] = T::lanes(|lane| T::of(gradient(lane, e, j)));
+            batch.gradients[e][j] = T::lanes(|lane| T::of(shapes[lane].0[e][j]));
         }
     }
     batch

@@ -5,22 +5,45 @@ use std::marker::PhantomData;
 use pulp::{Simd, WithSimd};
 
 use super::kernel::{
-    corner_blocks, corner_gradients, displacement_gradient, invariant_blocks, rotation_blocks, squares, total_energy,
+    add_corner_blocks, add_corner_gradients, add_invariant_blocks, add_rotation_blocks, corner_differences,
+    displacement_gradient, no_blocks, squares, total_energy,
 };
 use super::scatter::{add_hessian, scatter};
-use super::{Batch, BatchLaws, Chunk};
+use super::{Batch, BatchLaws, Chunk, Elements};
 use crate::materials::{Law, Terms};
 use crate::number::{Float, Lanes, constant};
 use crate::sparse::Block;
 use crate::tensor::{map, volume_change};
 
-/// A part of a stored batch in lanes like `one`.
+impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
+    /// Number of quadrature points whose contributions are added up before they are scattered. Points of other elements are elements of their
+    /// own.
+    pub(super) const POINTS: usize = if N == 10 { 4 } else { 1 };
+}
+
+/// The corners of the elements of a chunk, in parts of as many as there are lanes like those of `L`, with the number of each part.
 #[inline(always)]
-fn load<L: Lanes, const D: usize, const E: usize>(
-    stored: &Batch<<L::Element as Float>::Lanes, D, E>,
-    part: usize,
+pub(super) fn parts<L: Lanes, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<L::Element, D, E, N>,
+) -> impl Iterator<Item = (usize, &[[u32; N]])> {
+    chunk.corners.chunks_exact(L::LANES).enumerate()
+}
+
+/// The number of the batch with a quadrature point of a part: batches have the first points of their elements, then the second ones.
+#[inline(always)]
+pub(super) fn batch_of<L: Lanes, const D: usize, const E: usize, const N: usize>(part: usize, point: usize) -> usize {
+    let points = Elements::<L::Element, D, E, N>::POINTS;
+    part / L::PARTS * points * L::PARTS + point * L::PARTS + part % L::PARTS
+}
+
+/// A batch of a chunk in lanes like `one`.
+#[inline(always)]
+pub(super) fn load<L: Lanes, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<L::Element, D, E, N>,
+    batch: usize,
     one: L,
 ) -> Batch<L, D, E> {
+    let (stored, part) = (&chunk.batches[batch / L::PARTS], batch % L::PARTS);
     let (volume, counted) = (one.load(&stored.volume, part), one.load(&stored.counted, part));
     let mut batch = Batch { gradients: [[one; D]; E], volume, counted };
     for e in 0..E {
@@ -29,20 +52,6 @@ fn load<L: Lanes, const D: usize, const E: usize>(
         }
     }
     batch
-}
-
-/// The batches of a chunk in parts of as many elements as there are lanes like `one`, with their corners.
-#[inline(always)]
-pub(super) fn batches<L: Lanes, const D: usize, const E: usize, const N: usize>(
-    chunk: &Chunk<L::Element, D, E, N>,
-    one: L,
-) -> impl Iterator<Item = (Batch<L, D, E>, &[[u32; N]])> {
-    (0..chunk.batches.len() * L::PARTS)
-        .map(
-            #[inline(always)]
-            move |i| load(&chunk.batches[i / L::PARTS], i % L::PARTS, one),
-        )
-        .zip(chunk.corners.chunks_exact(L::LANES))
 }
 
 /// Elastic energy of the elements that a chunk counts, J.
@@ -62,9 +71,15 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     fn with_simd<S: Simd>(self, _simd: S) -> f64 {
         let Self { chunk, laws, u, .. } = self;
         let mut total = 0.0;
-        for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {
-            let law = laws.of_batch(&chunk.elements, i);
-            total += total_energy(&batch, law.energy(&displacement_gradient(&batch, corners, u)));
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                let law = laws.of_batch(&chunk.elements, number);
+                total += total_energy(&batch, law.energy(&displacement_gradient(&batch, &moved)));
+            }
         }
         total
     }
@@ -83,8 +98,14 @@ impl<L: Lanes, const D: usize, const E: usize, const N: usize> WithSimd for Squa
     fn with_simd<S: Simd>(self, _simd: S) -> f64 {
         let Self { chunk, u } = self;
         let mut total = 0.0;
-        for (batch, corners) in batches(chunk, L::one()) {
-            total += squares(&batch, &displacement_gradient(&batch, corners, u));
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                total += squares(&batch, &displacement_gradient(&batch, &moved));
+            }
         }
         total
     }
@@ -107,10 +128,18 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { chunk, laws, u, sums, .. } = self;
-        for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {
-            let law = laws.of_batch(&chunk.elements, i);
-            let G = displacement_gradient(&batch, corners, u);
-            scatter(chunk, corners, &corner_gradients(&batch, &law.stress(&G)), sums);
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            let mut gradients = [[one; D]; E];
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                let law = laws.of_batch(&chunk.elements, number);
+                let P = law.stress(&displacement_gradient(&batch, &moved));
+                add_corner_gradients(&batch, &P, point == 0, &mut gradients);
+            }
+            scatter(chunk, corners, &gradients, sums);
         }
     }
 }
@@ -133,12 +162,19 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     fn with_simd<S: Simd>(self, _simd: S) -> f64 {
         let Self { chunk, laws, u, sums, .. } = self;
         let mut total = 0.0;
-        for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {
-            let law = laws.of_batch(&chunk.elements, i);
-            let G = displacement_gradient(&batch, corners, u);
-            let (energy, P) = law.energy_and_stress(&G);
-            total += total_energy(&batch, energy);
-            scatter(chunk, corners, &corner_gradients(&batch, &P), sums);
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            let mut gradients = [[one; D]; E];
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                let law = laws.of_batch(&chunk.elements, number);
+                let (energy, P) = law.energy_and_stress(&displacement_gradient(&batch, &moved));
+                total += total_energy(&batch, energy);
+                add_corner_gradients(&batch, &P, point == 0, &mut gradients);
+            }
+            scatter(chunk, corners, &gradients, sums);
         }
         total
     }
@@ -163,17 +199,24 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { chunk, laws, factor, u, values, .. } = self;
         let factor = L::splat(factor);
-        for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {
-            let law = laws.of_batch(&chunk.elements, i);
-            let G = displacement_gradient(&batch, corners, u);
-            let mut scaled = batch;
-            scaled.volume *= factor;
-            let inner = match law.terms(&G) {
-                Terms::Invariants(terms) => invariant_blocks(&scaled, &terms),
-                Terms::Rotation(terms) => rotation_blocks(&scaled, &terms),
-                Terms::Entries => corner_blocks(&scaled, &law.derivative(&G)),
-            };
-            add_hessian(chunk, i, &inner, values);
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            let mut inner = no_blocks();
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                let law = laws.of_batch(&chunk.elements, number);
+                let G = displacement_gradient(&batch, &moved);
+                let mut scaled = batch;
+                scaled.volume *= factor;
+                match law.terms(&G) {
+                    Terms::Invariants(terms) => add_invariant_blocks(&scaled, &terms, point == 0, &mut inner),
+                    Terms::Rotation(terms) => add_rotation_blocks(&scaled, &terms, point == 0, &mut inner),
+                    Terms::Entries => add_corner_blocks(&scaled, &law.derivative(&G), point == 0, &mut inner),
+                }
+            }
+            add_hessian(chunk, part, &inner, values);
         }
     }
 }
@@ -198,16 +241,25 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { chunk, laws, factor, u, d, sums, .. } = self;
         let factor = L::splat(factor);
-        for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {
-            let law = laws.of_batch(&chunk.elements, i);
-            let G = displacement_gradient(&batch, corners, u);
-            let dF = displacement_gradient(&batch, corners, d);
-            let dP = map(
-                &law.derivative_times(&G, &dF),
-                #[inline(always)]
-                |entry| entry * factor,
-            );
-            scatter(chunk, corners, &corner_gradients(&batch, &dP), sums);
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            let along = corner_differences(one, corners, d);
+            let mut gradients = [[one; D]; E];
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                let law = laws.of_batch(&chunk.elements, number);
+                let G = displacement_gradient(&batch, &moved);
+                let dF = displacement_gradient(&batch, &along);
+                let dP = map(
+                    &law.derivative_times(&G, &dF),
+                    #[inline(always)]
+                    |entry| entry * factor,
+                );
+                add_corner_gradients(&batch, &dP, point == 0, &mut gradients);
+            }
+            scatter(chunk, corners, &gradients, sums);
         }
     }
 }
@@ -225,10 +277,16 @@ impl<L: Lanes, const D: usize, const E: usize, const N: usize> WithSimd for MinD
     fn with_simd<S: Simd>(self, _simd: S) -> (L::Element, usize) {
         let Self { chunk, u } = self;
         let mut least = (L::Element::of(f64::INFINITY), 0);
-        for ((batch, corners), elements) in batches(chunk, L::one()).zip(chunk.elements.chunks(L::LANES)) {
-            let J = volume_change(&displacement_gradient(&batch, corners, u)).0 + constant(1.0);
-            for (&J, &element) in J.as_slice().iter().zip(elements) {
-                least = smaller(least, (J, element as usize));
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                let J = volume_change(&displacement_gradient(&batch, &moved)).0 + constant(1.0);
+                for (&J, &element) in J.as_slice().iter().zip(&chunk.elements[number * L::LANES..]) {
+                    least = smaller(least, (J, element as usize));
+                }
             }
         }
         least
@@ -254,11 +312,17 @@ impl<L: Lanes, const D: usize, const E: usize, const N: usize> WithSimd for Inve
     fn with_simd<S: Simd>(self, _simd: S) -> usize {
         let Self { chunk, u } = self;
         let mut count = 0;
-        // The lanes of the last batch that belong to no element are empty.
-        for ((batch, corners), elements) in batches(chunk, L::one()).zip(chunk.elements.chunks(L::LANES)) {
-            let J = volume_change(&displacement_gradient(&batch, corners, u)).0 + constant(1.0);
-            for (&J, _) in J.as_slice().iter().zip(elements) {
-                count += usize::from(!(J > L::Element::default()));
+        let one = L::one();
+        for (part, corners) in parts::<L, D, E, N>(chunk) {
+            let moved = corner_differences(one, corners, u);
+            for point in 0..Elements::<L::Element, D, E, N>::POINTS {
+                let number = batch_of::<L, D, E, N>(part, point);
+                let batch = load(chunk, number, one);
+                let J = volume_change(&displacement_gradient(&batch, &moved)).0 + constant(1.0);
+                // A copy of an element, without volume, is not counted.
+                for (&J, &volume) in J.as_slice().iter().zip(batch.volume.as_slice()) {
+                    count += usize::from(!(J > L::Element::default()) && volume > L::Element::default());
+                }
             }
         }
         count

@@ -8,22 +8,30 @@ use crate::tensor::{Tensor, Tensor4, dot, zero};
 /// A D×D block for each lane.
 pub(super) type LaneBlock<L, const D: usize> = [[L; D]; D];
 
-/// Displacement gradients G_ij = Σ_e (u_{e+1} − u_0)_i (∇φ_{e+1})_j of the elements with these corners. In the plane the third
-/// direction does not deform: plane strain.
+/// The vectors of the corners of each element but the first, less those of the first, in lanes like `like`: u_{e+1} − u_0.
 #[inline(always)]
-pub(super) fn displacement_gradient<L: Lanes, const D: usize, const E: usize, const N: usize>(
-    batch: &Batch<L, D, E>,
+pub(super) fn corner_differences<L: Lanes, const D: usize, const E: usize, const N: usize>(
+    like: L,
     corners: &[[u32; N]],
     u: &[[L::Element; 3]],
-) -> Tensor<L> {
-    let first = corner_vectors(batch.volume, corners, 0, u);
-    let mut differences = batch.gradients;
+) -> [[L; D]; E] {
+    let first = corner_vectors(like, corners, 0, u);
+    let mut differences = [[like; D]; E];
     for e in 0..E {
-        let x = corner_vectors(batch.volume, corners, e + 1, u);
+        let x = corner_vectors(like, corners, e + 1, u);
         for i in 0..D {
             differences[e][i] = x[i] - first[i];
         }
     }
+    differences
+}
+
+/// Displacement gradients G_ij = Σ_e (u_{e+1} − u_0)_i (∇φ_{e+1})_j. In the plane the third direction does not deform: plane strain.
+#[inline(always)]
+pub(super) fn displacement_gradient<L: Lanes, const D: usize, const E: usize>(
+    batch: &Batch<L, D, E>,
+    differences: &[[L; D]; E],
+) -> Tensor<L> {
     let mut G = zero::<L>();
     for i in 0..D {
         for j in 0..D {
@@ -53,33 +61,43 @@ fn corner_vectors<L: Lanes, const N: usize>(
     )
 }
 
-/// Gradient of the element's energy by the positions of its corners but the first: V P ∇φ.
+/// Adds the gradient of the energy at a quadrature point by the positions of the element's corners but the first, V P ∇φ. The first point
+/// begins the sum.
 #[inline(always)]
-pub(super) fn corner_gradients<L: Lanes, const D: usize, const E: usize>(
+pub(super) fn add_corner_gradients<L: Lanes, const D: usize, const E: usize>(
     batch: &Batch<L, D, E>,
     P: &Tensor<L>,
-) -> [[L; D]; E] {
-    let mut gradients = batch.gradients;
+    is_first: bool,
+    gradients: &mut [[L; D]; E],
+) {
     for e in 0..E {
         for i in 0..D {
             let mut sum = P[i][0] * batch.gradients[e][0];
             for j in 1..D {
                 sum = P[i][j].times_plus(batch.gradients[e][j], sum);
             }
-            gradients[e][i] = sum * batch.volume;
+            let sum = sum * batch.volume;
+            gradients[e][i] = if is_first { sum } else { gradients[e][i] + sum };
         }
     }
-    gradients
 }
 
-/// Blocks V Σ_jl H_(ij)(kl) (∇φ_a)_j (∇φ_b)_l of the element's Hessian for corners a + 1 and b + 1, b ≤ a.
+/// The blocks of an element's Hessian before the first quadrature point has begun their sum.
 #[inline(always)]
-pub(super) fn corner_blocks<L: Lanes, const D: usize, const E: usize>(
+pub(super) fn no_blocks<L: Lanes, const D: usize, const E: usize>() -> [[LaneBlock<L, D>; E]; E] {
+    [[[[L::zero(); D]; D]; E]; E]
+}
+
+/// Adds the blocks V Σ_jl H_(ij)(kl) (∇φ_a)_j (∇φ_b)_l of a quadrature point to the element's Hessian for corners a + 1 and b + 1, b ≤ a. The
+/// first point begins the sum.
+#[inline(always)]
+pub(super) fn add_corner_blocks<L: Lanes, const D: usize, const E: usize>(
     batch: &Batch<L, D, E>,
     H: &Tensor4<L>,
-) -> [[LaneBlock<L, D>; E]; E] {
+    is_first: bool,
+    blocks: &mut [[LaneBlock<L, D>; E]; E],
+) {
     let zero = L::zero();
-    let mut blocks = [[[[zero; D]; D]; E]; E];
     for b in 0..E {
         // H contracted with ∇φ_b from the right, times the volume.
         let mut right = [[zero; D]; 9];
@@ -102,12 +120,11 @@ pub(super) fn corner_blocks<L: Lanes, const D: usize, const E: usize>(
                     for j in 1..D {
                         sum = right[3 * i + j][k].times_plus(batch.gradients[a][j], sum);
                     }
-                    blocks[a][b][i][k] = sum;
+                    blocks[a][b][i][k] = if is_first { sum } else { blocks[a][b][i][k] + sum };
                 }
             }
         }
     }
-    blocks
 }
 
 /// a · b
@@ -119,14 +136,15 @@ fn inner<L: Lanes>(a: &[L; 3], b: &[L; 3]) -> L {
 /// The same blocks for a law of invariants, without the 81 entries of H. With f_a = F ∇φ_a and c_a = cof ∇φ_a they are
 /// V (a ∇φ_a·∇φ_b 1 + s f_a⊗f_b + t (f_a⊗c_b + c_a⊗f_b) + r c_a⊗c_b + b [F (∇φ_a × ∇φ_b)]), where [w]_ik = ε_ikm w_m.
 #[inline(always)]
-pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
+pub(super) fn add_invariant_blocks<L: Lanes, const D: usize, const E: usize>(
     batch: &Batch<L, D, E>,
     terms: &OfInvariants<L>,
-) -> [[LaneBlock<L, D>; E]; E] {
+    is_first: bool,
+    blocks: &mut [[LaneBlock<L, D>; E]; E],
+) {
     let zero = L::zero();
     let OfInvariants { F, cof, a, b, s, t, r } = *terms;
     let (a, b) = (a * batch.volume, b * batch.volume);
-    let mut blocks = [[[[zero; D]; D]; E]; E];
     let (mut g, mut f, mut c) = ([[zero; 3]; E], [[zero; D]; E], [[zero; D]; E]);
     for e in 0..E {
         g[e][..D].copy_from_slice(&batch.gradients[e]);
@@ -147,7 +165,8 @@ pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
             let block = &mut blocks[row][column];
             for i in 0..D {
                 for k in 0..D {
-                    block[i][k] = f[row][i].times_plus(of_f[k], c[row][i] * of_c[k]);
+                    let sum = f[row][i].times_plus(of_f[k], c[row][i] * of_c[k]);
+                    block[i][k] = if is_first { sum } else { block[i][k] + sum };
                 }
                 block[i][i] += along;
             }
@@ -166,19 +185,19 @@ pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
             }
         }
     }
-    blocks
 }
 
 /// The same blocks for a law of the rotation R, V (a ∇φ_a·∇φ_b 1 + b (R ∇φ_a)⊗(R ∇φ_b) + W_a c W_bᵀ), where row i of W_a is R_i × ∇φ_a.
 #[inline(always)]
-pub(super) fn rotation_blocks<L: Lanes, const D: usize, const E: usize>(
+pub(super) fn add_rotation_blocks<L: Lanes, const D: usize, const E: usize>(
     batch: &Batch<L, D, E>,
     terms: &OfRotation<L>,
-) -> [[LaneBlock<L, D>; E]; E] {
+    is_first: bool,
+    blocks: &mut [[LaneBlock<L, D>; E]; E],
+) {
     let zero = L::zero();
     let OfRotation { R, identity, rotation, spin } = terms;
     let (identity, rotation) = (*identity * batch.volume, *rotation * batch.volume);
-    let mut blocks = [[[[zero; D]; D]; E]; E];
     let (mut g, mut r, mut W) = ([[zero; 3]; E], [[zero; D]; E], [[[zero; 3]; D]; E]);
     for e in 0..E {
         g[e][..D].copy_from_slice(&batch.gradients[e]);
@@ -205,13 +224,13 @@ pub(super) fn rotation_blocks<L: Lanes, const D: usize, const E: usize>(
             for i in 0..D {
                 let (w, of_r) = (&W[row][i], rotation * r[row][i]);
                 for k in 0..D {
-                    block[i][k] = of_r * r[column][k] + inner(w, &right[k]);
+                    let sum = of_r * r[column][k] + inner(w, &right[k]);
+                    block[i][k] = if is_first { sum } else { block[i][k] + sum };
                 }
                 block[i][i] += along;
             }
         }
     }
-    blocks
 }
 
 /// All blocks with row ≥ column of an element's Hessian, from those of all corners but the first: the energy does not change

@@ -4,7 +4,7 @@
 //! space, triangles of the plane z = 0. An element here has one quadrature point, where the displacement gradient is
 //! Σ_e (u_{e+1} − u_0) ⊗ ∇φ_{e+1}: a sum over its E = N − 1 nodes but the first, since shape functions add up to one. A simplex has
 //! constant gradients and needs one point; an element with more is as many such elements on the same nodes
-//! ([`at_points`](Elements::at_points)). Nodes have three coordinates in all of them; triangles read and move the first two. Nodes are divided into chunks; each chunk computes all elements
+//! ([`at_points`](Elements::at_points)), which quadratic tetrahedra add up before they are scattered. Nodes have three coordinates in all of them; triangles read and move the first two. Nodes are divided into chunks; each chunk computes all elements
 //! that touch its nodes and sums up its own rows alone. Elements between chunks are computed twice, no two threads write to one place, and
 //! sums come out the same with any number of threads.
 
@@ -39,13 +39,17 @@ struct Chunk<T: Float, const D: usize, const E: usize, const N: usize> {
     nodes: Range<usize>,
     /// Blocks of their rows.
     blocks: Range<usize>,
-    /// Nodes of each element in ascending order, lane after lane; the last batch is filled up with elements of no volume.
+    /// Number of elements.
+    count: usize,
+    /// Nodes of each element in ascending order, lane after lane; the last batch is filled up with copies of its last element, which have no
+    /// volume.
     corners: Vec<[u32; N]>,
     /// Block that each pair of nodes is added to, counted from the first of `blocks`; pairs without a block have a target
     /// beyond the last. Empty where no matrix is assembled.
     targets: Vec<[[u32; N]; N]>,
+    /// The first quadrature points of as many elements as there are lanes, then their second ones.
     batches: Vec<Batch<T::Lanes, D, E>>,
-    /// Number of each element in the list that the elements were made from.
+    /// Number of each lane's quadrature point in the list that the elements were made from.
     elements: Vec<u32>,
 }
 

@@ -7,11 +7,13 @@ use crate::elements::Elements;
 use crate::number::Float;
 use crate::sparse::Pattern;
 
-/// Elements of one shape. The loops over tetrahedra are compiled for each law; those over triangles call it by reference, once per batch.
+/// Elements of one shape. The loops over linear tetrahedra are compiled for each law; those over all others call it by reference, once per
+/// batch.
 pub(super) enum AnyElements<T: Float> {
     Tetrahedra(Elements<T, 3, 3, 4>),
     Triangles(Elements<T, 2, 2, 3>),
     QuadraticTriangles(Elements<T, 2, 5, 6>),
+    QuadraticTetrahedra(Elements<T, 3, 9, 10>),
 }
 
 /// Evaluates an expression for the elements, whatever their shape.
@@ -21,6 +23,7 @@ macro_rules! with_elements {
             AnyElements::Tetrahedra($name) => $value,
             AnyElements::Triangles($name) => $value,
             AnyElements::QuadraticTriangles($name) => $value,
+            AnyElements::QuadraticTetrahedra($name) => $value,
         }
     };
 }
@@ -50,6 +53,9 @@ impl<T: Float> AnyElements<T> {
         } else if let Some(elements) = mesh.arrays::<6>() {
             let nodes = renumbered(numbers, elements, node_numbers);
             Self::QuadraticTriangles(Elements::at_points(mesh.element(), rest, &nodes, &factors, pattern))
+        } else if let Some(elements) = mesh.arrays::<10>() {
+            let nodes = renumbered(numbers, elements, node_numbers);
+            Self::QuadraticTetrahedra(Elements::at_points(mesh.element(), rest, &nodes, &factors, pattern))
         } else {
             unreachable!("the loops are not compiled for {}", mesh.element().name)
         }

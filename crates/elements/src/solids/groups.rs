@@ -19,7 +19,7 @@ use crate::sparse::{Block, Pattern};
 /// All elements of a body. A body of one material is one group.
 pub struct Groups<T: Float> {
     groups: Vec<Solid<T>>,
-    /// Number of quadrature points: one in every linear element, three in a quadratic triangle.
+    /// Number of quadrature points: one in every linear element, three in a quadratic triangle, four in a quadratic tetrahedron.
     count: usize,
     points_per_element: usize,
     nodes: usize,

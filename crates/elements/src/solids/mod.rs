@@ -17,7 +17,7 @@ pub use material::LawInLanes;
 
 /// All elastic elements of a body, with their materials. Displacements `u` are those of all nodes, m.
 pub trait Solids<T: Float>: Send + Sync {
-    /// Number of quadrature points: one in every linear element, three in a quadratic triangle.
+    /// Number of quadrature points: one in every linear element, three in a quadratic triangle, four in a quadratic tetrahedron.
     fn count(&self) -> usize;
 
     /// Number of materials.

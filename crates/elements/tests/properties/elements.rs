@@ -1,4 +1,5 @@
 mod quadratic;
+mod quadratic_solids;
 mod registers;
 mod shares;
 

@@ -1,6 +1,7 @@
 //! Follower pressures: forces along the normal of the deformed surface.
 
 mod edges;
+mod quadratic_triangles;
 mod triangles;
 
 use std::collections::HashSet;
@@ -11,6 +12,7 @@ use super::{AddBlock, Energy, Follower, HessianKind, Moment, Potential};
 use crate::numbering::Numbering;
 use edges::Edges;
 use fem_elements::Real;
+use quadratic_triangles::QuadraticTriangles;
 use triangles::Triangles;
 
 /// Key in the statistics.
@@ -38,6 +40,8 @@ struct Pressure<T> {
 enum Surface<T> {
     /// Of a solid body.
     Triangles(Triangles<T>),
+    /// Of a solid body with nodes at the middles of its edges.
+    QuadraticTriangles(QuadraticTriangles<T>),
     /// Of a flat body.
     Edges(Edges<T>),
 }
@@ -47,6 +51,7 @@ macro_rules! with_surface {
     ($surface:expr, $name:ident => $value:expr) => {
         match $surface {
             Surface::Triangles($name) => $value,
+            Surface::QuadraticTriangles($name) => $value,
             Surface::Edges($name) => $value,
         }
     };
@@ -67,9 +72,11 @@ impl<T: Real> Pressure<T> {
             None => triangles::rim(&pressure.faces),
             Some(_) => edges::rim(&pressure.faces),
         };
-        let surface = match mesh.thickness() {
-            None => Surface::Triangles(Triangles::new(mesh.vertices(), &pressure.faces, engine_node)),
-            Some(thickness) => Surface::Edges(Edges::new(mesh.vertices(), &pressure.faces, engine_node, thickness)),
+        let (x, faces) = (mesh.vertices(), &pressure.faces);
+        let surface = match (mesh.thickness(), mesh.element().order) {
+            (None, 1) => Surface::Triangles(Triangles::new(x, faces, engine_node)),
+            (None, _) => Surface::QuadraticTriangles(QuadraticTriangles::new(x, faces, engine_node)),
+            (Some(thickness), _) => Surface::Edges(Edges::new(x, faces, engine_node, thickness)),
         };
         Self {
             pressure: T::of(pressure.pressure),

@@ -38,6 +38,13 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
             format!("is false, and a step of {name} needs a mass for each node; make it true"),
         ),
         (
+            method.integrator.is_iterated() && body.shape.mesh.element().order != 1,
+            "mesh.order",
+            format!(
+                "makes quadratic elements, which time.integrator = \"{name}\" does not know; write 1, or use implicit_euler"
+            ),
+        ),
+        (
             follows && moved.is_some(),
             "static.arc_length",
             format!(

@@ -40,6 +40,25 @@ fn a_pressed_body_of_uniform_stress_has_a_uniform_pressure_up_to_the_edges_of_it
     }
 }
 
+#[test]
+fn a_pressed_body_of_quadratic_tetrahedra_is_carried_at_the_middles_of_the_sides_of_its_touching_faces() {
+    let simulation = pressed("box = { size = [1, 1, 1], cells_per_unit = 2 }\norder = 2");
+    let (shape, forces) = (simulation.shape(), simulation.contact_forces().unwrap());
+    let (vertices, mut areas) = (shape.mesh.vertices(), vec![0.0; shape.mesh.vertices().len()]);
+    for face in shape.faces().iter().filter(|face| face.iter().all(|&node| vertices[node].y == 0.0)) {
+        face[3..].iter().for_each(|&node| areas[node] += shape.mesh.area(face) / 3.0);
+    }
+    assert_eq!(areas.iter().filter(|area| **area > 0.0).count(), 16);
+    let total: f64 = forces.iter().skip(1).step_by(3).sum();
+    assert!((total - 100.0).abs() < 1e-6, "{total} N");
+    // Corners take no part of a uniform pressure, and a hundredth of that of a face with nodes at its corners alone, so that they stay above.
+    for (node, area) in areas.iter().enumerate().filter(|(node, _)| vertices[*node].y == 0.0) {
+        let force = forces[3 * node + 1];
+        let (expected, accuracy) = if *area > 0.0 { (100.0 * area, 3.0 * area) } else { (0.2, 0.2) };
+        assert!((force - expected).abs() < accuracy, "node {node}: {force} N of {area} m²");
+    }
+}
+
 /// Forces of the floor on a square that is turned about its middle by so many right angles, 5e-4 m above it.
 fn turned(mesh: &str, quarters: i32) -> (f64, usize) {
     let mut simulation = build(&text(mesh, "corotated", 1e5, "implicit_euler", 0.01, &floor(-1.0, "")));

@@ -57,9 +57,16 @@ fn a_body_that_touches_the_floor_at_the_start_comes_to_rest_on_it_with_every_met
 }
 
 #[test]
-fn quadratic_triangles_come_to_rest_on_the_floor() {
-    let mesh = "rectangle = { size = [1, 1], cells_per_unit = 2 }\norder = 2";
-    for (method, dt, steps) in [("implicit_euler", 0.02, 300), ("verlet", 5e-4, 8000)] {
+fn quadratic_elements_come_to_rest_on_the_floor() {
+    let (square, cube) =
+        ("rectangle = { size = [1, 1], cells_per_unit = 2 }", "box = { size = [1, 1, 1], cells_per_unit = 1 }");
+    for (mesh, method, dt, steps) in [
+        (square, "implicit_euler", 0.02, 300),
+        (square, "verlet", 5e-4, 8000),
+        (cube, "implicit_euler", 0.02, 300),
+        (cube, "verlet", 5e-4, 30000),
+    ] {
+        let mesh = &format!("{mesh}\norder = 2");
         let tables = gravity(0.0, -9.81) + &floor(-0.01, "friction = 0.3") + "[damping]\nbeta = 0.02\n";
         let mut simulation = build(&text(mesh, "neo_hookean", 1e5, method, dt, &tables));
         for _ in 0..steps {

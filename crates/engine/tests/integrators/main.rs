@@ -33,6 +33,7 @@ mod precision;
 mod pressures;
 mod quadratic;
 mod quadratic_motion;
+mod quadratic_solids;
 mod quasi_static;
 mod reactions;
 mod release;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::content::{Content, Entry, MOST_TAGS, Parts};
+use super::content::{Content, EDGES, Entry, MOST_TAGS, Parts};
 use crate::Problem;
 
 const POINT: i64 = 1;
@@ -12,12 +12,16 @@ pub(super) const STRIP: i64 = 6;
 pub(super) const POLYGON: i64 = 7;
 const QUADRANGLE: i64 = 9;
 const TETRAHEDRON: i64 = 10;
+const QUADRATIC_LINE: i64 = 21;
+const QUADRATIC_TRIANGLE: i64 = 22;
+const QUADRATIC_TETRAHEDRON: i64 = 24;
 
 /// Points and lines, linear and curved, which make at most sets.
-const CURVES: [i64; 5] = [1, 2, 3, 4, 21];
+const CURVES: [i64; 5] = [1, 2, 3, 4, QUADRATIC_LINE];
 
 /// Surface cells that are skipped beside tetrahedra and refused in a surface, by name.
-const SURFACES: [(i64, &str); 3] = [(8, "pixels"), (22, "triangles with 6 nodes"), (23, "quadrangles with 8 nodes")];
+const SURFACES: [(i64, &str); 3] =
+    [(8, "pixels"), (QUADRATIC_TRIANGLE, "triangles with 6 nodes"), (23, "quadrangles with 8 nodes")];
 
 /// Volume cells that are refused, by name.
 const VOLUMES: [(i64, &str); 14] = [
@@ -25,7 +29,7 @@ const VOLUMES: [(i64, &str); 14] = [
     (12, "hexahedron"),
     (13, "wedge"),
     (14, "pyramid"),
-    (24, "tetrahedron with 10 nodes"),
+    (QUADRATIC_TETRAHEDRON, "tetrahedron with 10 nodes"),
     (25, "hexahedron with 20 nodes"),
     (26, "wedge with 15 nodes"),
     (27, "pyramid with 13 nodes"),
@@ -137,6 +141,17 @@ fn add(content: &mut Content, cell: usize, kind: i64, corners: &[i64], points: u
         (TRIANGLE, [_, _, _]) | (QUADRANGLE, [_, _, _, _]) | (POLYGON, [_, _, _, ..]) => {
             content.polygon(&corners.iter().map(|&corner| index(corner)).collect::<Result<Vec<_>, _>>()?)
         }
+        (QUADRATIC_TETRAHEDRON, [_, _, _, _, _, _, _, _, _, _]) => {
+            let nodes = corners.iter().map(|&node| index(node)).collect::<Result<Vec<_>, _>>()?;
+            content.add_middles(&nodes, &EDGES, nodes[4..].iter().copied());
+            content.tetrahedron([nodes[0], nodes[1], nodes[2], nodes[3]])
+        }
+        (QUADRATIC_TRIANGLE, [_, _, _, _, _, _]) => {
+            let nodes = corners.iter().map(|&node| index(node)).collect::<Result<Vec<_>, _>>()?;
+            content.add_middles_of_polygon(&nodes[..3], nodes[3..].iter().copied());
+            content.polygon(&nodes[..3])
+        }
+        (QUADRATIC_LINE, &[a, b, _]) => Entry::edge([index(a)?, index(b)?]),
         (STRIP, [_, _, _, ..]) => {
             let first = content.triangles.len() as u32;
             for (i, corners) in corners.windows(3).enumerate() {

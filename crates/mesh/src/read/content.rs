@@ -122,6 +122,10 @@ pub(super) struct Content {
     pub has_numbering: bool,
     /// The tag of each node; empty if the file has none.
     pub node_tags: Vec<i32>,
+    /// Nodes between the corners of elements: the ends of the edge of each, and its number.
+    pub middles: Vec<([usize; 2], usize)>,
+    /// Number of elements that have such nodes.
+    pub quadratic: usize,
     /// A kind of polygons that was skipped and would be missing in a surface.
     pub skipped: Option<String>,
     /// Number of faces with fewer than three corners, which were skipped.
@@ -131,7 +135,31 @@ pub(super) struct Content {
     pub notes: Notes,
 }
 
+/// Corners of the edges of a tetrahedron with 10 nodes, in the order of the nodes at their middles, in VTK's and Abaqus's files and in Gmsh's.
+pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+pub(super) const GMSH_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [2, 3], [1, 3]];
+
+/// Part of an edge by which a node may lie beside its middle, as rounding errors of a file.
+const STRAIGHT: f64 = 1e-6;
+
 impl Content {
+    /// Adds the nodes between the corners of an element with these edges.
+    pub(super) fn add_middles(
+        &mut self,
+        corners: &[usize],
+        edges: &[[usize; 2]],
+        middles: impl Iterator<Item = usize>,
+    ) {
+        self.quadratic += 1;
+        self.middles.extend(edges.iter().map(|edge| edge.map(|corner| corners[corner])).zip(middles));
+    }
+
+    /// Adds the nodes between the corners of a polygon.
+    pub(super) fn add_middles_of_polygon(&mut self, corners: &[usize], middles: impl Iterator<Item = usize>) {
+        let edges: Vec<[usize; 2]> = (0..corners.len()).map(|i| [i, (i + 1) % corners.len()]).collect();
+        self.add_middles(corners, &edges, middles);
+    }
+
     pub(super) fn tetrahedron(&mut self, corners: [usize; 4]) -> Entry {
         self.tetrahedra.push(corners);
         Entry::Tetrahedron(self.tetrahedra.len() as u32 - 1)
@@ -186,6 +214,7 @@ impl Content {
             self.notes.unread(found);
         }
         self.name_tags();
+        self.leave_out_middles();
         if self.short_faces > 0 {
             self.notes.tell(format!("{} faces with fewer than three corners are left out", self.short_faces));
         }
@@ -216,6 +245,49 @@ impl Content {
         }
     }
 
+    /// Leaves out the nodes between corners. A set of nodes that has one, and the ends of its edge, gets the edge.
+    fn leave_out_middles(&mut self) {
+        if self.quadratic == 0 {
+            return;
+        }
+        self.middles.sort_unstable_by_key(|(_, middle)| *middle);
+        self.middles.dedup_by_key(|(_, middle)| *middle);
+        let middles = &self.middles;
+        let edge_of = |node: &usize| Some(middles[middles.binary_search_by_key(node, |(_, middle)| *middle).ok()?].0);
+        for parts in self.groups.values_mut().filter(|parts| !parts.points.is_empty()) {
+            parts.points.sort_unstable();
+            let points = std::mem::take(&mut parts.points);
+            let has = |node: &usize| points.binary_search(node).is_ok();
+            let edges = points.iter().filter_map(edge_of).filter(|ends| ends.iter().all(has));
+            parts.edges.extend(edges);
+            parts.points = points.into_iter().filter(|node| edge_of(node).is_none()).collect();
+        }
+        let beside = |&([a, b], middle): &([usize; 2], usize)| {
+            let [a, b, middle] = [a, b, middle].map(|node| self.vertices[node]);
+            ((middle - 0.5 * (a + b)).norm(), (a - b).norm())
+        };
+        let far = middles.iter().map(beside).filter(|(distance, length)| *distance > STRAIGHT * length);
+        let far = far.map(|(distance, _)| distance).fold(0.0, f64::max);
+        let count = self.quadratic;
+        let bent = if far > 0.0 {
+            format!("; edges become straight, and in the file a node lies {far:.3e} m beside the middle of its edge")
+        } else {
+            String::new()
+        };
+        self.notes.tell(format!(
+            "{count} elements have nodes between their corners, which are not read: they become linear, and `order = 2` in `[mesh]` puts \
+             nodes on the middles of their edges again{bent}"
+        ));
+        // A node that is a corner of another element stays.
+        let mut is_corner = vec![false; self.vertices.len()];
+        let corners = match &self.tetrahedra[..] {
+            [] => self.triangles.as_flattened(),
+            tetrahedra => tetrahedra.as_flattened(),
+        };
+        corners.iter().for_each(|&node| is_corner[node] = true);
+        self.middles.retain(|(_, middle)| !is_corner[*middle]);
+    }
+
     fn into_tetrahedra(self) -> (AnyMesh, Notes) {
         let (triangles, mut notes) = (self.triangles, self.notes);
         let set = |(name, parts): (String, Parts)| {
@@ -224,7 +296,7 @@ impl Content {
         };
         let sets = self.groups.into_iter().map(set).collect();
         let mut mesh = TetrahedralMesh { vertices: self.vertices, elements: self.tetrahedra, sets };
-        clear(&mut mesh, &mut notes);
+        clear(&mut mesh, self.middles.len(), &mut notes);
         if let Some(count) = turn_if_all_inverted(&mut mesh) {
             notes.tell(format!(
                 "all {count} tetrahedra had a negative volume; each is turned by swapping two of its nodes"
@@ -254,7 +326,7 @@ impl Content {
         if self.is_surface {
             leave_out_strays(&mut mesh).into_iter().for_each(|line| notes.tell(line));
         } else {
-            clear(&mut mesh, &mut notes);
+            clear(&mut mesh, self.middles.len(), &mut notes);
         }
         if is_plane && let Some(count) = turn_if_all_inverted(&mut mesh) {
             notes.tell(format!("all {count} triangles were clockwise; each is turned by swapping two of its nodes"));
@@ -268,10 +340,10 @@ fn sorted(mut set: MeshSet) -> MeshSet {
     set
 }
 
-/// Leaves out parts of sets and nodes that belong to no element.
-fn clear<const N: usize>(mesh: &mut Mesh<3, N>, notes: &mut Notes) {
+/// Leaves out parts of sets and nodes that belong to no element. The nodes between corners are not told.
+fn clear<const N: usize>(mesh: &mut Mesh<3, N>, middles: usize, notes: &mut Notes) {
     leave_out_strays(mesh).into_iter().for_each(|line| notes.tell(line));
-    let count = leave_out_unreferenced(mesh);
+    let count = leave_out_unreferenced(mesh).saturating_sub(middles);
     if count > 0 {
         notes.tell(format!("{count} nodes belong to no element and are left out"));
     }

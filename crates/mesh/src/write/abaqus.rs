@@ -1,4 +1,4 @@
-//! Abaqus's input file: nodes, linear elements, and named sets as sets of elements, of nodes, and surfaces. Source: Abaqus Keywords
+//! Abaqus's input file: nodes, elements, and named sets as sets of elements, of nodes, and surfaces. Source: Abaqus Keywords
 //! Reference Guide.
 
 use std::collections::HashMap;
@@ -11,13 +11,19 @@ use crate::read::ABAQUS_FACES;
 /// Numbers in a row of a set.
 const IN_ROW: usize = 12;
 
-/// Writes tetrahedra as C3D4 and triangles as CPS3. Of the edges of sets the nodes are written: trusses would need a section.
+/// Writes tetrahedra as C3D4 or C3D10 and triangles as CPS3 or CPS6. Of the edges of sets the nodes are written: trusses would need a section.
 pub(super) fn write<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> io::Result<()> {
     writeln!(out, "*HEADING\nwritten by fem-mesh\n*NODE")?;
     for (i, x) in mesh.vertices.iter().enumerate() {
         writeln!(out, "{}, {}", i + 1, place(x).replace(' ', ", "))?;
     }
-    writeln!(out, "*ELEMENT, TYPE={}", if N == 4 { "C3D4" } else { "CPS3" })?;
+    let kind = match N {
+        4 => "C3D4",
+        10 => "C3D10",
+        6 => "CPS6",
+        _ => "CPS3",
+    };
+    writeln!(out, "*ELEMENT, TYPE={kind}")?;
     for (i, element) in mesh.elements.iter().enumerate() {
         writeln!(out, "{}{}", i + 1, numbers(element))?;
     }
@@ -60,7 +66,8 @@ fn rows(out: &mut dyn Write, list: &[usize]) -> io::Result<()> {
 fn sides<const N: usize>(mesh: &Mesh<3, N>) -> HashMap<[usize; 3], (usize, usize)> {
     let faces = mesh.sets.values().flat_map(|set| &set.faces);
     let mut sides: HashMap<[usize; 3], (usize, usize)> = faces.map(|&face| (face, (0, 0))).collect();
-    let elements = if N == 4 && !sides.is_empty() { &mesh.elements[..] } else { &[] };
+    let is_solid = matches!(N, 4 | 10);
+    let elements = if is_solid && !sides.is_empty() { &mesh.elements[..] } else { &[] };
     for (i, element) in elements.iter().enumerate() {
         for (side, face) in ABAQUS_FACES.iter().enumerate() {
             let mut nodes = face.map(|corner| element[corner]);

@@ -6,8 +6,22 @@ use std::io::{self, Write};
 use super::place;
 use crate::{Mesh, MeshSet};
 
-/// Gmsh's numbers for the point, line, triangle and tetrahedron, by dimension.
-const KINDS: [usize; 4] = [15, 1, 2, 4];
+/// Gmsh's number for the point, and for the line, triangle and tetrahedron with so many nodes.
+const fn kind(nodes: usize) -> usize {
+    match nodes {
+        1 => 15,
+        2 => 1,
+        3 => 2,
+        6 => 9,
+        10 => 11,
+        _ => 4,
+    }
+}
+
+/// The dimension of elements with so many nodes.
+const fn dimension(nodes: usize) -> usize {
+    if matches!(nodes, 3 | 6) { 2 } else { 3 }
+}
 
 /// The sets of an element, by their numbers, which count from 1: an entity of the file for each such list.
 type Groups = Vec<usize>;
@@ -24,7 +38,7 @@ pub(super) fn write<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> i
         write_entities(out, mesh, &entities)?;
     }
     let nodes = mesh.vertices.len();
-    writeln!(out, "$Nodes\n1 {nodes} 1 {nodes}\n{} 1 0 {nodes}", N - 1)?;
+    writeln!(out, "$Nodes\n1 {nodes} 1 {nodes}\n{} 1 0 {nodes}", dimension(N))?;
     for tag in 1..=nodes {
         writeln!(out, "{tag}")?;
     }
@@ -55,7 +69,7 @@ fn parts<const N: usize>(mesh: &Mesh<3, N>) -> [Parts; 4] {
         groups_of(|set| set.faces.iter().map(|face| face.to_vec()).collect()).into_iter().collect(),
         Parts::new(),
     ];
-    parts[N - 1] = elements.collect();
+    parts[dimension(N)] = elements.collect();
     parts
 }
 
@@ -69,7 +83,7 @@ fn entities(parts: &Parts) -> BTreeMap<Groups, usize> {
 fn write_names<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> io::Result<()> {
     let dimensions = |set: &MeshSet| {
         let mut has_parts = [!set.points.is_empty(), !set.edges.is_empty(), !set.faces.is_empty(), false];
-        has_parts[N - 1] = !set.elements.is_empty();
+        has_parts[dimension(N)] = !set.elements.is_empty();
         (0..4).filter(move |&dimension| has_parts[dimension])
     };
     let count: usize = mesh.sets.values().map(|set| dimensions(set).count()).sum();
@@ -112,9 +126,15 @@ fn write_elements(out: &mut dyn Write, parts: &[Parts; 4], entities: &[BTreeMap<
     let mut tag = 0;
     for (dimension, parts) in parts.iter().enumerate() {
         for block in parts.chunk_by(|a, b| a.1 == b.1) {
-            writeln!(out, "{dimension} {} {} {}", entities[dimension][&block[0].1], KINDS[dimension], block.len())?;
+            let (nodes, groups) = &block[0];
+            writeln!(out, "{dimension} {} {} {}", entities[dimension][groups], kind(nodes.len()), block.len())?;
             for (nodes, _) in block {
                 tag += 1;
+                let mut nodes = nodes.clone();
+                if nodes.len() == 10 {
+                    // The middles of the last two edges are in the other order.
+                    nodes.swap(8, 9);
+                }
                 let nodes: String = nodes.iter().map(|node| format!(" {}", node + 1)).collect();
                 writeln!(out, "{tag}{nodes}")?;
             }

@@ -34,6 +34,9 @@ use super::{AnyMesh, Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 /// Extensions for tetrahedra, and for triangles beside those of surfaces.
 const TETRAHEDRA: [&str; 7] = ["node", "ele", "mesh", "msh", "vtu", "vtk", "inp"];
 
+/// Extensions for quadratic elements.
+const QUADRATIC: [&str; 4] = ["inp", "msh", "vtu", "vtk"];
+
 /// Writes tetrahedra or triangles, as [`write_tetrahedra`] and [`write_surface`] do.
 pub fn write_mesh(path: &Path, mesh: &AnyMesh) -> Result<(), MeshError> {
     match mesh {
@@ -59,6 +62,16 @@ fn write_any<const N: usize>(path: &Path, mesh: &Mesh<3, N>) -> Option<Result<()
         "vtk" => save_mesh(path, &mut |out| vtk::write(out, mesh)),
         "inp" => save_mesh(path, &mut |out| abaqus::write(out, mesh)),
         _ => return None,
+    })
+}
+
+/// Writes quadratic tetrahedra (`N` = 10) or triangles (6), nodes in VTK's order: `.inp` (Abaqus, C3D10), `.msh` (Gmsh 4.1, type 11), `.vtu` or
+/// `.vtk` (VTK, type 24), each also compressed. Faces and edges of sets are named by their corners.
+pub fn write_quadratic<const N: usize>(path: &Path, mesh: &Mesh<3, N>) -> Result<(), MeshError> {
+    let written = if QUADRATIC.contains(&extension(path).as_str()) { write_any(path, mesh) } else { None };
+    written.unwrap_or_else(|| {
+        let found = format!("a mesh of quadratic elements in a .{} file", extension(path));
+        Err(MeshError::in_file(path, Problem::Unsupported { found, instead: "write it as .inp, .msh, .vtu or .vtk" }))
     })
 }
 

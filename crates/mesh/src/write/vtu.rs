@@ -10,11 +10,13 @@ use super::sets::Marks;
 use super::{escape, save_mesh};
 use crate::{Mesh, MeshError, Problem};
 
-/// VTK's number for the line with 2 nodes, the triangle with 3 and the tetrahedron with 4.
+/// VTK's number for the line with 2 nodes, the triangle with 3 or 6 and the tetrahedron with 4 or 10.
 pub(super) const fn cell_type(nodes: usize) -> u8 {
     match nodes {
         2 => 3,
         3 => 5,
+        6 => 22,
+        10 => 24,
         _ => 10,
     }
 }

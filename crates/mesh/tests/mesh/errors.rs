@@ -184,7 +184,7 @@ fn bad_files_of_gmsh_are_refused() {
     assert_gmsh("0 1 0\n", "0 a 0\n", &["line 13: `a` is not a coordinate"]);
     assert_gmsh("1 1 2 3 9", "1 1 2 3 4", &["line 19: the file has no node with the tag 4; correct"]);
     assert_gmsh("2\n3\n9\n", "2\n2\n9\n", &["line 9: the tag 2 is given to two nodes"]);
-    assert_gmsh("3 1 4 1\n", "3 1 11 1\n", &["line 18: a mesh of tetrahedra with 10 nodes", "-order 1"]);
+    assert_gmsh("3 1 4 1\n", "3 1 29 1\n", &["line 18: a mesh of tetrahedra with 20 nodes", "-order 1"]);
     assert_gmsh("3 1 4 1\n", "3 1 5 1\n", &["line 18", "element type 5", "gmsh -3"]);
 }
 

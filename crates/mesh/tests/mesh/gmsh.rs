@@ -207,7 +207,7 @@ fn bad_binary_files_are_refused_at_their_byte() {
 #[test]
 fn volumes_other_than_tetrahedra_are_refused_by_their_name() {
     let with_kind = |kind: &str| refusal(text_2().replace("4 4 2 4 1", &format!("4 {kind} 2 4 1")).as_bytes());
-    for (kind, name) in [("5", "hexahedra"), ("6", "prisms"), ("7", "pyramids"), ("11", "tetrahedra with 10 nodes")] {
+    for (kind, name) in [("5", "hexahedra"), ("6", "prisms"), ("7", "pyramids"), ("29", "tetrahedra with 20 nodes")] {
         let message = with_kind(kind);
         assert!(message.contains(&format!("line 24: a mesh of {name} (Gmsh's")), "{message}");
         assert!(message.contains("mesh the volumes with tetrahedra of first order"), "{message}");

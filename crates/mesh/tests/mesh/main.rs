@@ -17,6 +17,7 @@ mod other_programs;
 mod packed;
 mod pictures;
 mod progress;
+mod quadratic;
 mod refined;
 mod round_trip;
 mod sets_kept;

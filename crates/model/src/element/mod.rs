@@ -5,6 +5,7 @@
 
 mod linear_tetrahedron;
 mod linear_triangle;
+mod quadratic_tetrahedron;
 mod quadratic_triangle;
 mod shape_function;
 
@@ -40,10 +41,11 @@ pub struct Element {
 
 impl Element {
     /// All elements.
-    pub const ALL: [&Self; 3] = [
+    pub const ALL: [&Self; 4] = [
         &linear_tetrahedron::LINEAR_TETRAHEDRON,
         &linear_triangle::LINEAR_TRIANGLE,
         &quadratic_triangle::QUADRATIC_TRIANGLE,
+        &quadratic_tetrahedron::QUADRATIC_TETRAHEDRON,
     ];
 
     /// The element with so many nodes. Panics if there is none, when the program is compiled.

@@ -181,11 +181,52 @@ fn neighbours_share_the_nodes_at_the_middles_of_their_common_edges() {
 
 #[test]
 fn the_triangles_between_the_nodes_of_a_quadratic_element_are_those_of_one_refinement() {
-    for element in Element::ALL.into_iter().filter(|element| (element.dimension, element.order) == (2, 2)) {
+    for element in Element::ALL.into_iter().filter(|element| element.order == 2) {
         let quadratic = body(element);
-        let linear = body(Element::ALL.into_iter().find(|linear| (linear.dimension, linear.order) == (2, 1)).unwrap());
-        let refined = linear.refined(1, "rectangle".as_ref()).unwrap();
-        assert_eq!((refined.vertices(), refined.surface()), (quadratic.vertices(), quadratic.surface()));
+        let is_linear = |linear: &&Element| (linear.dimension, linear.order) == (element.dimension, 1);
+        let linear = body(Element::ALL.into_iter().find(is_linear).unwrap());
+        let refined = linear.refined(1, "mesh".as_ref()).unwrap();
+        assert_eq!(refined.vertices(), quadratic.vertices());
+        let sorted = |mesh: &BodyMesh| {
+            // A triangle keeps its orientation, whichever corner comes first.
+            let first = |[a, b, c]: [usize; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap();
+            mesh.surface().into_iter().map(first).collect::<BTreeSet<_>>()
+        };
+        assert_eq!(sorted(&refined), sorted(&quadratic), "{}", element.name);
+    }
+}
+
+#[test]
+fn faces_and_their_drawn_triangles_have_the_nodes_of_the_flat_element_in_its_order() {
+    for element in Element::ALL.into_iter().filter(|element| element.dimension == 3) {
+        let is_flat = |flat: &&Element| (flat.dimension, flat.order) == (2, element.order);
+        let flat = Element::ALL.into_iter().find(is_flat).unwrap();
+        assert_eq!(element.triangles, flat.triangles);
+        for face in element.faces {
+            for (edge, &middle) in flat.edges.iter().zip(&face[3..]) {
+                let mut ends = edge.map(|corner| face[corner]);
+                let mut expected = element.edges[middle - element.corners()];
+                ends.sort_unstable();
+                expected.sort_unstable();
+                assert_eq!(ends, expected, "{}", element.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_of_a_surface_have_the_middles_of_their_edges() {
+    for element in Element::ALL {
+        let mesh = body(element);
+        for face in mesh.faces() {
+            let corners = &face[..element.dimension];
+            let nodes = match *corners {
+                [a, b] => mesh.with_middles(corners.to_vec(), &[[b, a]], &[]),
+                [a, b, c] => mesh.with_middles(corners.to_vec(), &[], &[[c, a, b]]),
+                _ => unreachable!("a face is an edge or a triangle"),
+            };
+            assert_eq!(nodes.into_iter().collect::<BTreeSet<_>>(), face.into_iter().collect(), "{}", element.name);
+        }
     }
 }
 

@@ -189,8 +189,8 @@ pub struct MeshTable {
     /// Engine only.
     #[serde(default)]
     pub refine: u32,
-    /// Polynomial order of the elements: 1, or 2 for the quadratic triangles of a flat body, which have a node on the middle of every
-    /// edge. Engine only.
+    /// Polynomial order of the elements: 1, or 2 for quadratic tetrahedra, and for quadratic triangles of a flat body, which have a node on
+    /// the middle of every edge. Corners keep their numbers. Engine only.
     #[serde(default = "first")]
     pub order: u32,
 }

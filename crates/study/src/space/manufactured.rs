@@ -249,12 +249,16 @@ mod tests {
     }
 
     #[test]
-    fn triangles_have_the_orders_of_their_polynomials() {
-        for element in Element::ALL.into_iter().filter(|element| element.dimension == 2) {
-            let [coarse, fine] = [8, 16].map(|cells| solve("neo_hookean", element, cells).unwrap());
-            let [l2, h1] = [coarse.l2 / fine.l2, coarse.h1 / fine.h1].map(f64::log2);
-            let [in_l2, in_h1] = orders(element);
-            assert!((l2 - in_l2).abs() < 0.1 && (h1 - in_h1).abs() < 0.1, "{}: {l2} {h1}", element.name);
+    fn elements_have_the_orders_of_their_polynomials() {
+        for element in Element::ALL.into_iter().filter(|element| (element.dimension, element.order) != (3, 1)) {
+            let models = if element.dimension == 2 { &["neo_hookean"][..] } else { &["linear", "neo_hookean"] };
+            for model in models {
+                let cells = if element.dimension == 2 { [8, 16] } else { [6, 12] };
+                let [coarse, fine] = cells.map(|cells| solve(model, element, cells).unwrap());
+                let [l2, h1] = [coarse.l2 / fine.l2, coarse.h1 / fine.h1].map(f64::log2);
+                let [in_l2, in_h1] = orders(element);
+                assert!((l2 - in_l2).abs() < 0.1 && (h1 - in_h1).abs() < 0.1, "{} {model}: {l2} {h1}", element.name);
+            }
         }
     }
 }

@@ -1,13 +1,17 @@
 //! Distances between two states of a body. The state files contain all their data.
 
-use fem_engine::elements::shares::load_shares;
+use fem_engine::elements::shares::{load_shares, lumped_mass_shares};
 use fem_model::BodyMesh;
 
 /// Weights of the nodes, m³: their shares of the volume of every adjacent element, which are the row sums of its consistent mass over the
-/// density. Those of corners of quadratic triangles are zero: sums over the nodes are integrals by the rule of mid-sides.
+/// density. Those of corners of quadratic triangles are zero: sums over the nodes are integrals by the rule of mid-sides. Those of quadratic
+/// tetrahedra would be negative and make no norm; theirs are the shares of the lumped mass.
 pub fn weights(mesh: &BodyMesh) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.vertices().len()];
-    let shares = load_shares(mesh.element());
+    let mut shares = load_shares(mesh.element());
+    if shares.iter().any(|share| *share < 0.0) {
+        shares = lumped_mass_shares(mesh.element());
+    }
     for (nodes, volume) in mesh.corners().zip(mesh.volumes()) {
         for (&node, share) in nodes.iter().zip(&shares) {
             weights[node] += volume * share;

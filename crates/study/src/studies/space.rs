@@ -62,10 +62,13 @@ fn sequence(
     element: &'static Element,
     rows: &mut Vec<Row>,
 ) -> Result<SpaceOrders, String> {
-    let cells: &[usize] = match (element.dimension, settings.is_quick) {
-        (_, true) => &[4, 8, 16],
-        (3, false) => &[2, 4, 8, 16, 32],
-        (_, false) => &[4, 8, 16, 32, 64, 128],
+    let cells: &[usize] = match (element.dimension, element.order, settings.is_quick) {
+        // 17³ and 33³ nodes already.
+        (3, 2, true) => &[2, 4, 8],
+        (3, 2, false) => &[2, 4, 8, 16],
+        (_, _, true) => &[4, 8, 16],
+        (3, _, false) => &[2, 4, 8, 16, 32],
+        (_, _, false) => &[4, 8, 16, 32, 64, 128],
     };
     let (from, name) = (rows.len(), manufactured::label(element));
     for (number, &per_unit) in cells.iter().enumerate() {

@@ -72,7 +72,7 @@ fn shares_are_integrals_of_products_of_shape_functions_and_add_up_to_one() {
 
 #[test]
 fn known_shares_have_all_their_digits() {
-    let [tetrahedron, linear, quadratic] = Element::ALL;
+    let [tetrahedron, linear, quadratic, _] = Element::ALL;
     assert_eq!(load_shares(linear), [1.0 / 3.0; 3]);
     assert_eq!(load_shares(tetrahedron), [0.25; 4]);
     assert_eq!(load_shares(quadratic), [0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0]);
@@ -94,4 +94,31 @@ fn known_shares_have_all_their_digits() {
         [0.0, -4.0, 0.0, 16.0, 16.0, 32.0],
     ];
     assert_eq!(mass_shares::<6>(quadratic), entries.map(|row| row.map(|entry| entry / 180.0)));
+}
+
+#[test]
+fn a_quadratic_tetrahedron_has_the_shares_that_are_derived_by_hand() {
+    let [.., solid] = Element::ALL;
+    let of = |corner: f64, middle: f64| [[corner; 4].to_vec(), vec![middle; 6]].concat();
+    assert_eq!(load_shares(solid), of(-1.0 / 20.0, 1.0 / 5.0));
+    assert_eq!(face_shares(solid), [0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0]);
+    assert_eq!(lumped_mass_shares(solid), of(1.0 / 36.0, 4.0 / 27.0));
+    // 1/420 of: corners 6, 1 beside each other; −4 to the middles of their own edges, −6 to others; middles 32, 16 where edges meet, 8 else.
+    let ends = |node: usize| if node < 4 { vec![node] } else { solid.edges[node - 4].to_vec() };
+    let mass = mass_shares::<10>(solid);
+    for (i, row) in mass.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            let common = ends(i).iter().filter(|end| ends(j).contains(end)).count();
+            let expected = match (ends(i).len() + ends(j).len(), common) {
+                (2, 1) => 6.0,
+                (2, _) => 1.0,
+                (3, 1) => -4.0,
+                (3, _) => -6.0,
+                (_, 2) => 32.0,
+                (_, 1) => 16.0,
+                _ => 8.0,
+            };
+            assert_eq!(*entry, expected / 420.0, "{i} {j}");
+        }
+    }
 }

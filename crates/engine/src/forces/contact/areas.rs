@@ -54,7 +54,9 @@ impl Areas {
         let (faces, nodes) = faces(body, numbering);
         let mut around = vec![0.0; mesh.vertices().len()];
         for (face, nodes) in faces.iter().zip(nodes.chunks_exact(shares.len())) {
-            nodes.iter().zip(&shares).for_each(|(&node, share)| around[node] += share * face.area);
+            // A uniform pressure does not load the corners of a quadratic triangle; they must not pass through the plane either.
+            let part = |share: f64| if share > 0.0 { share } else { 1.0 / element.dimension as f64 };
+            nodes.iter().zip(&shares).for_each(|(&node, &share)| around[node] += part(share) * face.area);
         }
         let (sections, constrained) = (sections(body), constrained_directions(body));
         let least = |normal: &Vector3<f64>, node: usize| {

@@ -1,6 +1,6 @@
 //! A pressure on triangles of the surface of a solid body.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
@@ -68,10 +68,11 @@ impl<T: Real> Triangles<T> {
     }
 }
 
-/// The nodes on the edge of a surface; a closed one has no edge.
+/// The nodes on the edge of a surface, those at the middles of its sides too; a closed one has no edge.
 pub fn rim(faces: &[Vec<usize>]) -> Vec<usize> {
-    let sides = |face: &Vec<usize>| [0, 1, 2].map(|k| [face[k], face[(k + 1) % 3]]);
-    let edges: HashSet<[usize; 2]> = faces.iter().flat_map(sides).collect();
+    let sides = |face: &Vec<usize>| [0, 1, 2].map(|k| ([face[k], face[(k + 1) % 3]], face.get(3 + k).copied()));
+    let edges: HashMap<[usize; 2], Option<usize>> = faces.iter().flat_map(sides).collect();
     // Two outward triangles run along a common edge in opposite directions.
-    edges.iter().filter(|&&[a, b]| !edges.contains(&[b, a])).flatten().copied().collect()
+    let free = edges.iter().filter(|&(&[a, b], _)| !edges.contains_key(&[b, a]));
+    free.flat_map(|(ends, middle)| ends.iter().chain(middle)).copied().collect()
 }

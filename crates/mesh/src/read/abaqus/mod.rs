@@ -126,7 +126,7 @@ fn elements(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), Mesh
         if let Some(more) = nodes.get(kind.nodes) {
             return Err(row.error(Problem::RowTooLong { word: more.to_string(), last: "the nodes of the element" }));
         }
-        model.add_element(&row, number, kind, &nodes[..kind.corners()])?;
+        model.add_element(&row, number, kind, nodes)?;
         numbers.extend(set.map(|_| number));
     }
     set.into_iter().for_each(|name| model.name(Of::Elements, name, model.part, &numbers));

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::content::{Content, Entry};
+use super::super::content::{Content, EDGES, Entry};
 use super::Member;
 use super::deck::Line;
 use super::kinds::{FACES, Kind, Shape};
@@ -35,14 +35,12 @@ pub(super) struct Model {
     instances: HashMap<String, usize>,
     /// Entries in the first row of a node; each has as many.
     pub columns: Option<usize>,
-    /// Elements with nodes between their corners.
-    quadratic: usize,
 }
 
 impl Default for Model {
     fn default() -> Self {
         let (content, parts, instances) = (Content::default(), vec![Part::default()], HashMap::new());
-        Self { content, parts, part: 0, instances, columns: None, quadratic: 0 }
+        Self { content, parts, part: 0, instances, columns: None }
     }
 }
 
@@ -100,13 +98,20 @@ impl Model {
             Some(Entry::Point(node)) => Ok(*node as usize),
             _ => Err(line.error(Problem::UnknownTag { tag })),
         };
+        let (nodes, middles) = nodes.split_at(kind.corners());
         let nodes = nodes.iter().map(node).collect::<Result<Vec<_>, _>>()?;
+        let middles = middles.iter().map(node).collect::<Result<Vec<_>, _>>()?.into_iter();
+        match kind.shape {
+            _ if middles.len() == 0 => {}
+            Shape::Tetrahedron => self.content.add_middles(&nodes, &EDGES, middles),
+            Shape::Line => self.content.add_middles(&nodes, &[[0, 1]], middles),
+            Shape::Triangle | Shape::Quadrangle => self.content.add_middles_of_polygon(&nodes, middles),
+        }
         let element = match (kind.shape, &nodes[..]) {
             (Shape::Tetrahedron, &[a, b, c, d]) => self.content.tetrahedron([a, b, c, d]),
             (Shape::Line, nodes) => Entry::edge([nodes[0], nodes[1]]),
             (_, nodes) => self.content.polygon(nodes),
         };
-        self.quadratic += usize::from(kind.nodes > kind.corners());
         match elements.insert(number, element) {
             None => Ok(()),
             Some(_) => {
@@ -218,12 +223,6 @@ impl Model {
 
     pub(super) fn finish(self) -> Result<Content, MeshError> {
         let mut content = self.content;
-        if self.quadratic > 0 {
-            let count = self.quadratic;
-            content.notes.tell(format!(
-                "{count} elements have nodes between their corners, which are not read: they become linear"
-            ));
-        }
         // Internal sets of Abaqus/CAE, which its surfaces are made of.
         content.groups.retain(|name, _| !name.rsplit('.').next().unwrap_or(name).starts_with("_"));
         Ok(content)

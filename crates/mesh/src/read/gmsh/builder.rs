@@ -4,8 +4,10 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::content::{Content, Entry, Parts};
-use super::kinds::{Kind, LINE, POINT, TETRAHEDRON, TRIANGLE};
+use super::super::content::{Content, Entry, GMSH_EDGES, Parts};
+use super::kinds::{
+    Kind, LINE, POINT, QUADRATIC_LINE, QUADRATIC_TETRAHEDRON, QUADRATIC_TRIANGLE, TETRAHEDRON, TRIANGLE,
+};
 use crate::Problem;
 
 const FIRST_ORDER: &str = "mesh with triangles and tetrahedra of first order, or leave them out of the physical group";
@@ -50,7 +52,8 @@ impl Builder {
 
     /// Adds an element to its physical groups; a tetrahedron or a triangle to the mesh too.
     pub(super) fn add_element(&mut self, kind: Kind, tags: &[i64], groups: &[Group]) -> Result<Entry, Problem> {
-        if ![TETRAHEDRON, TRIANGLE].contains(&kind.number) && groups.is_empty() {
+        let of_mesh = [TETRAHEDRON, TRIANGLE, QUADRATIC_TETRAHEDRON, QUADRATIC_TRIANGLE];
+        if !of_mesh.contains(&kind.number) && groups.is_empty() {
             if kind.dimension == 2 {
                 self.content.skipped =
                     Some(format!("a surface of {} (Gmsh's element type {})", kind.name, kind.number));
@@ -62,7 +65,15 @@ impl Builder {
         let entry = match (kind.number, &nodes[..]) {
             (TETRAHEDRON, &[a, b, c, d]) => self.content.tetrahedron([a, b, c, d]),
             (TRIANGLE, nodes) => self.content.polygon(nodes),
-            (LINE, &[a, b]) => Entry::edge([a, b]),
+            (QUADRATIC_TETRAHEDRON, &[a, b, c, d, ..]) => {
+                self.content.add_middles(&nodes, &GMSH_EDGES, nodes[4..].iter().copied());
+                self.content.tetrahedron([a, b, c, d])
+            }
+            (QUADRATIC_TRIANGLE, nodes) => {
+                self.content.add_middles_of_polygon(&nodes[..3], nodes[3..].iter().copied());
+                self.content.polygon(&nodes[..3])
+            }
+            (LINE, &[a, b]) | (QUADRATIC_LINE, &[a, b, _]) => Entry::edge([a, b]),
             (POINT, &[a]) => Entry::Point(a as u32),
             _ => {
                 let found = format!("a physical group of {} (Gmsh's element type {})", kind.name, kind.number);

@@ -19,6 +19,10 @@ pub(super) const TETRAHEDRON: i64 = 4;
 pub(super) const TRIANGLE: i64 = 2;
 /// The line with 2 nodes.
 pub(super) const LINE: i64 = 1;
+/// The same shapes with nodes at the middles of their edges.
+pub(super) const QUADRATIC_LINE: i64 = 8;
+pub(super) const QUADRATIC_TRIANGLE: i64 = 9;
+pub(super) const QUADRATIC_TETRAHEDRON: i64 = 11;
 /// The point.
 pub(super) const POINT: i64 = 15;
 
@@ -31,10 +35,10 @@ const KINDS: [(i64, usize, usize, &str); 33] = [
     (5, 3, 8, "hexahedra"),
     (6, 3, 6, "prisms"),
     (7, 3, 5, "pyramids"),
-    (8, 1, 3, "lines with 3 nodes"),
-    (9, 2, 6, "triangles with 6 nodes"),
+    (QUADRATIC_LINE, 1, 3, "lines with 3 nodes"),
+    (QUADRATIC_TRIANGLE, 2, 6, "triangles with 6 nodes"),
     (10, 2, 9, "quadrangles with 9 nodes"),
-    (11, 3, 10, "tetrahedra with 10 nodes"),
+    (QUADRATIC_TETRAHEDRON, 3, 10, "tetrahedra with 10 nodes"),
     (12, 3, 27, "hexahedra with 27 nodes"),
     (13, 3, 18, "prisms with 18 nodes"),
     (14, 3, 14, "pyramids with 14 nodes"),
@@ -59,14 +63,14 @@ const KINDS: [(i64, usize, usize, &str); 33] = [
     (93, 3, 125, "hexahedra with 125 nodes"),
 ];
 
-/// The element type of a number. Refuses unknown types and volumes other than tetrahedra with 4 nodes: skipped, they would leave
+/// The element type of a number. Refuses unknown types and volumes other than tetrahedra with 4 or 10 nodes: skipped, they would leave
 /// holes in the body.
 pub(super) fn kind(number: i64) -> Result<Kind, Problem> {
     let unsupported = |found: String| Problem::Unsupported { found, instead: SPLIT };
     let Some(&(_, dimension, nodes, name)) = KINDS.iter().find(|kind| kind.0 == number) else {
         return Err(unsupported(format!("Gmsh's element type {number}")));
     };
-    if dimension == 3 && number != TETRAHEDRON {
+    if dimension == 3 && ![TETRAHEDRON, QUADRATIC_TETRAHEDRON].contains(&number) {
         return Err(unsupported(format!("a mesh of {name} (Gmsh's element type {number})")));
     }
     Ok(Kind { number, dimension, nodes, name })
