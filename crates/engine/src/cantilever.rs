@@ -117,7 +117,7 @@ fn end_traction(body: &Body) -> Option<Vector3<f64>> {
     let x = body.shape.mesh.vertices();
     let end: HashSet<usize> = nodes_on_side(x, 0, Side::Max, 0.0).into_iter().collect();
     let is_at_end = |face: &[usize]| face.iter().all(|node| end.contains(node));
-    let faces = body.shape.boundary.iter().filter(|face| is_at_end(&face[..])).count();
+    let faces = body.shape.faces().iter().filter(|face| is_at_end(face)).count();
     let end_load = |traction: &Traction| {
         let is_end = traction.faces.len() == faces && traction.faces.iter().all(|face| is_at_end(face));
         is_end.then_some(traction.force_per_area)

@@ -230,6 +230,24 @@ impl BodyMesh {
         inverse.map_or(Matrix3::zeros(), |inverse| Matrix3::from_columns(&change) * inverse)
     }
 
+    /// A lower bound of det F in a whole element for displacements `u` of its nodes, m: its value in a linear element. F is linear in a
+    /// quadratic one, Σ L_i F_i with those at the corners, so det F is a sum of Bernstein polynomials whose factors are the means of
+    /// det (F_i, F_j, F_k) over the columns that each of the three gives. If all are positive, det F is: A. Johnen, J.-F. Remacle and
+    /// C. Geuzaine, Geometrical Validity of Curvilinear Finite Elements (2013).
+    pub fn least_det_F(&self, element: usize, u: impl Fn(usize) -> Vector3<f64>) -> f64 {
+        let count = self.element.corners();
+        let at = |corner: usize| {
+            let L: [f64; 4] = std::array::from_fn(|i| f64::from(i == corner));
+            Matrix3::identity() + self.displacement_gradient_at(element, &L[..count], &u)
+        };
+        let F: Vec<Matrix3<f64>> = (0..count).map(at).collect();
+        let det = |[i, j, k]: [usize; 3]| F[i].column(0).cross(&F[j].column(1)).dot(&F[k].column(2));
+        let orders = |[i, j, k]: [usize; 3]| [[i, j, k], [j, k, i], [k, i, j], [i, k, j], [k, j, i], [j, i, k]];
+        let triples = (0..count).flat_map(|i| (i..count).flat_map(move |j| (j..count).map(move |k| [i, j, k])));
+        let factors = triples.map(|triple| orders(triple).map(det).iter().sum::<f64>() / 6.0);
+        factors.fold(f64::INFINITY, |least, factor| if factor >= least { least } else { factor })
+    }
+
     /// The derivative of displacements along the edge from the first corner of an element to another one, times the length of the edge, m.
     fn derivative(&self, nodes: &[usize], corner: usize, L: &[f64], u: impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
         let first = u(nodes[0]);

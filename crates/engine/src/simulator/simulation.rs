@@ -224,7 +224,7 @@ impl<T: Compiled> Diagnostics for Simulator<T> {
     }
 
     fn warnings(&self) -> Vec<String> {
-        self.contact.iter().filter_map(|contact| contact.warning()).collect()
+        self.contact.iter().filter_map(|contact| contact.warning()).chain(self.hidden_inversion()).collect()
     }
 
     fn planes(&self) -> Vec<Plane> {

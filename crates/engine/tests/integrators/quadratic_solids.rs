@@ -371,3 +371,26 @@ fn one_tetrahedron_by_itself_is_a_body() {
     run(&mut *simulation, 20);
     assert!((simulation.velocities()[28] + 0.2 * 9.81).abs() < 1e-9);
 }
+
+#[test]
+fn an_inversion_between_quadrature_points_is_warned_of() {
+    let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vector3::from);
+    let mesh = BodyMesh::solid(Mesh::new(x.to_vec(), vec![[0, 1, 2, 3]])).of_order(2).unwrap();
+    let middle = (0..10).find(|&node| mesh.vertices()[node] == Vector3::new(0.5, 0.0, 0.0)).unwrap();
+    for (moved, is_warned) in [(0.2, false), (0.3, true)] {
+        let tables = format!(
+            "[[prescribed]]\nnodes = {:?}\ndisplacement = [0, 0, 0]\n[[prescribed]]\nnodes = [{middle}]\ndisplacement = [-{moved}, 0, 0]\n",
+            (0..10).filter(|&node| node != middle).collect::<Vec<_>>()
+        );
+        let scene = crate::scene(&block("neo_hookean", &tables));
+        let body = fem_scene::body_of(&scene, mesh.clone(), "no data".as_ref()).unwrap();
+        let mut simulation = fem_engine::simulator::build(body, &scene.method()).unwrap();
+        run(&mut *simulation, 1);
+        assert_eq!(simulation.inverted_elements(), 0);
+        let warnings = simulation.warnings();
+        assert_eq!(warnings.len(), usize::from(is_warned), "{warnings:?}");
+        assert!(
+            warnings.iter().all(|text| text.contains("1 elements may be inverted between their quadrature points"))
+        );
+    }
+}

@@ -259,3 +259,55 @@ fn the_displacement_gradient_is_the_mean_of_those_at_the_quadrature_points() {
         }
     }
 }
+
+/// A body of one element with corners at the origin and on the axes.
+fn single(element: &Element) -> BodyMesh {
+    let x = (0..element.corners()).map(|i| Vector3::from_fn(|j, _| f64::from(i == j + 1))).collect();
+    let mesh = match element.dimension {
+        2 => BodyMesh::flat(fem_mesh::Mesh::new(x, vec![[0, 1, 2]]), 1.0),
+        _ => BodyMesh::solid(fem_mesh::Mesh::new(x, vec![[0, 1, 2, 3]])),
+    };
+    mesh.of_order(element.order).unwrap()
+}
+
+#[test]
+fn the_bound_of_det_F_finds_an_inversion_that_no_quadrature_point_sees() {
+    for element in Element::ALL.into_iter().filter(|element| element.order == 2) {
+        let mesh = single(element);
+        let edge = element.corners() + element.edges.iter().position(|&edge| edge == [0, 1]).unwrap();
+        // With the middle of the edge along x moved by d, det F at the first corner is 1 − 4 d.
+        for (d, is_inverted) in [(0.24, false), (0.26, true)] {
+            let u = |node: usize| if node == edge { Vector3::new(-d, 0.0, 0.0) } else { Vector3::zeros() };
+            let at = |L: &[f64]| (Matrix3::identity() + mesh.displacement_gradient_at(0, L, u)).determinant();
+            assert!(element.points.iter().all(|L| at(L) > 0.4), "{}", element.name);
+            let bound = mesh.least_det_F(0, u);
+            assert!(
+                (bound - (1.0 - 4.0 * d)).abs() < 1e-14 && (bound < 0.0) == is_inverted,
+                "{}: {bound}",
+                element.name
+            );
+        }
+    }
+}
+
+#[test]
+fn the_bound_of_det_F_is_its_value_where_the_deformation_is_uniform_and_below_it_elsewhere() {
+    for element in Element::ALL {
+        let mesh = body(element);
+        let (x, up) = (mesh.vertices(), if element.dimension == 3 { 1.0 } else { 0.0 });
+        let uniform =
+            |node: usize| Vector3::new(0.1 * x[node].x + 0.3 * x[node].y, -0.2 * x[node].y, up * 0.05 * x[node].z);
+        let wavy = |node: usize| {
+            let f = |k: f64| 0.03 * (7.0 * x[node].x + 5.0 * x[node].y * k + 3.0 * x[node].z).sin();
+            Vector3::new(f(1.0), f(2.0), up * f(3.0))
+        };
+        for number in 0..mesh.elements() {
+            let expected = 1.1 * 0.8 * (1.0 + up * 0.05);
+            assert!((mesh.least_det_F(number, uniform) - expected).abs() < 1e-14, "{}", element.name);
+            for L in inside(element).iter().chain(&places(element)) {
+                let J = (Matrix3::identity() + mesh.displacement_gradient_at(number, L, wavy)).determinant();
+                assert!(mesh.least_det_F(number, wavy) <= J + 1e-14, "{}", element.name);
+            }
+        }
+    }
+}

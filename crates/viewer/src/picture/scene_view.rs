@@ -74,7 +74,7 @@ impl SceneView {
         let mesh = Surface::new(&mut root, &nodes, &shape.boundary, Shading::Flat, materials);
         let has_faces = is_solid && !planes.is_empty();
         let obstacles = has_faces.then(|| Faces::new(&mut root, planes.len(), shader(Kind::Obstacle)));
-        let edges = edges(&shape.boundary);
+        let edges = element_edges(shape);
         let shape = Arc::clone(shape);
         let (shown, highlight) = (DisplayedSurface::Skinned, None);
         let mut view =
@@ -204,6 +204,17 @@ impl SceneView {
         }
         obstacles::draw_arrows(window, frame, camera, radius);
     }
+}
+
+/// The edges of the elements on the surface: the triangles between the nodes of a quadratic element have further ones, between middles.
+fn element_edges(shape: &Shape) -> Vec<[usize; 2]> {
+    let mesh = &shape.mesh;
+    let mut is_middle = vec![false; mesh.vertices().len()];
+    let middles = (0..mesh.elements()).flat_map(|element| mesh.middles_of(element));
+    middles.for_each(|(_, middle)| is_middle[middle] = true);
+    let mut edges = edges(&shape.boundary);
+    edges.retain(|edge| !edge.iter().all(|&node| is_middle[node]));
+    edges
 }
 
 fn environment(bounds: &Bounds, up: Vec3) -> Environment {
