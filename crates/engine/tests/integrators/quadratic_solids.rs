@@ -333,7 +333,7 @@ fn methods_in_sweeps_refuse_quadratic_tetrahedra_in_scenes_and_in_programs() {
             assert!(error.contains("mesh.order makes quadratic elements") && error.contains("write 1"), "{error}");
         };
         let parsed = fem_scene::parse(&quadratic(&text), "a.toml".as_ref());
-        refused(parsed.err().expect("it is refused").to_string());
+        refused(parsed.expect_err("it is refused").to_string());
         // A program can give the body its mesh.
         let scene = crate::scene(&text);
         let linear = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();

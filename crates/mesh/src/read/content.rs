@@ -270,13 +270,13 @@ impl Content {
         let far = far.map(|(distance, _)| distance).fold(0.0, f64::max);
         let count = self.quadratic;
         let bent = if far > 0.0 {
-            format!("; edges become straight, and in the file a node lies {far:.3e} m beside the middle of its edge")
+            format!("; edges become straight, and in the file such a node lies {far:.3e} m beside the middle of its edge")
         } else {
             String::new()
         };
         self.notes.tell(format!(
-            "{count} elements have nodes between their corners, which are not read: they become linear, and `order = 2` in `[mesh]` puts \
-             nodes on the middles of their edges again{bent}"
+            "{count} elements have nodes between their corners, which are not read; `order = 2` in `[mesh]` makes them anew, on the middles of \
+             their edges{bent}"
         ));
         // A node that is a corner of another element stays.
         let mut is_corner = vec![false; self.vertices.len()];
