@@ -246,6 +246,7 @@ fn what_the_device_does_not_know_is_refused_with_a_remedy() {
     let changes = [
         ("integrator = \"verlet\"", "integrator = \"implicit_euler\"", "time.integrator is \"implicit_euler\""),
         ("model = \"neo_hookean\"", "model = \"hencky\"", "material.model is \"hencky\""),
+        ("per_unit = 2 }", "per_unit = 2 }\norder = 2", "mesh.order makes quadratic elements"),
         ("lumped = true", "lumped = false", "mass.lumped is not true"),
         ("alpha = 0.5", "beta = 0.5", "damping.beta is the damping"),
         ("[batch]", "[[springs]]\nnodes = [0, 40]\nstiffness = 5\n[batch]", "springs are forces between two nodes"),

@@ -270,7 +270,9 @@ impl Content {
         let far = far.map(|(distance, _)| distance).fold(0.0, f64::max);
         let count = self.quadratic;
         let bent = if far > 0.0 {
-            format!("; edges become straight, and in the file such a node lies {far:.3e} m beside the middle of its edge")
+            format!(
+                "; edges become straight, and in the file such a node lies {far:.3e} m beside the middle of its edge"
+            )
         } else {
             String::new()
         };
