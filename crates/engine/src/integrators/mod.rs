@@ -51,9 +51,7 @@ pub use xpbd::xpbd;
 
 pub use crate::newton::{Convergence, LastEvaluation};
 #[cfg(feature = "gpu")]
-pub(crate) use descent::color_nodes;
-#[cfg(feature = "gpu")]
-pub(crate) use projection::shape;
+pub(crate) use relaxation::{color_nodes, shape};
 
 use fem_model::simulation::{Cause, Counters, History};
 use fem_model::{Integrator as Kind, Method};

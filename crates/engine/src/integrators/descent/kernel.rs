@@ -8,6 +8,7 @@ use pulp::{Simd, WithSimd};
 use super::search::Change;
 use super::slot::Slot;
 use super::sums::{Sums, UPPER};
+use crate::integrators::relaxation::inner;
 use fem_elements::materials::{Law, OfInvariants, OfRotation, Terms};
 use fem_elements::number::Float;
 use fem_elements::number::Lanes;
@@ -134,12 +135,6 @@ fn deformation<L: Lanes, const E: usize>(
         }
     }
     (G, gradient, one.load(&slot.volume, part))
-}
-
-/// a · b
-#[inline(always)]
-fn inner<L: Lanes>(a: &[L; 3], b: &[L; 3]) -> L {
-    a[2].times_plus(b[2], a[1].times_plus(b[1], a[0] * b[0]))
 }
 
 #[inline(always)]

@@ -4,15 +4,14 @@ use fem_model::IterationSettings;
 use rayon::prelude::*;
 
 use super::chebyshev::Chebyshev;
-use super::coloring::color_nodes;
 use super::groups::{corners, group};
 use super::links::Links;
-use super::nodes::{BATCHES_FOR_THREADS, CHUNK, NodeBatches};
+use super::nodes::NodeBatches;
 use super::patches::Group;
 use super::search::{Change, HALVINGS};
 use super::solve::{Inertia, Steps, StepsOf, inverse_block};
 use super::sums::Sums;
-use crate::integrators::relaxation::{PlaneContacts, Relaxation, StepOf};
+use crate::integrators::relaxation::{BATCHES_FOR_THREADS, CHUNK, PlaneContacts, Relaxation, StepOf, color_nodes};
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::number::Number;

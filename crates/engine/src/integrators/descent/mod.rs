@@ -9,7 +9,6 @@
 //! beside the elements ([`search`]).
 
 mod chebyshev;
-mod coloring;
 mod groups;
 mod kernel;
 mod links;
@@ -21,6 +20,4 @@ mod slot;
 mod solve;
 mod sums;
 
-#[cfg(feature = "gpu")]
-pub(crate) use coloring::color_nodes;
 pub use method::Descent;

@@ -5,12 +5,6 @@ use std::ops::Range;
 use fem_elements::Real;
 use fem_elements::number::Number;
 
-/// Batches of nodes that a thread takes at a time.
-pub(super) const CHUNK: usize = 16;
-
-/// From this many batches of a colour on several threads share them.
-pub(super) const BATCHES_FOR_THREADS: usize = 4 * CHUNK;
-
 /// Batches of nodes without a common element, colour after colour.
 pub(super) struct NodeBatches<T: Real> {
     /// Node of each lane. Lanes without a node of their own repeat the first of their batch, and move no node.

@@ -4,14 +4,13 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::coloring::cliques_of_nodes;
 use super::kernel::{ChangesOf, SumsOf};
-use super::nodes::{BATCHES_FOR_THREADS, CHUNK, NodeBatches};
+use super::nodes::NodeBatches;
 use super::search::Change;
 use super::slot::Slot;
 use super::sums::Sums;
 
-use crate::integrators::projection::shape;
+use crate::integrators::relaxation::{BATCHES_FOR_THREADS, CHUNK, cliques_of_nodes, shape};
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::materials::Law;

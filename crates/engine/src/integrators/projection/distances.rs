@@ -1,9 +1,9 @@
 //! Distance constraints: springs of XPBD, and edges of PBD.
 
-use super::coloring::color;
 use super::rule::{Rule, Sweep};
 use crate::forces::HessianKind;
 use crate::forces::springs::Spring;
+use crate::integrators::relaxation::color_constraints;
 use fem_elements::Real;
 use fem_elements::vector::{dot3, triple};
 
@@ -18,7 +18,8 @@ impl<T: Real> Distances<T> {
     /// The constraints of these springs.
     pub fn new(nodes: usize, springs: &[Spring<T>]) -> Self {
         let ends: Vec<_> = springs.iter().map(|spring| spring.nodes).collect();
-        let springs: Vec<_> = color(nodes, &ends).order.into_iter().map(|number| springs[number as usize]).collect();
+        let springs: Vec<_> =
+            color_constraints(nodes, &ends).concat().into_iter().map(|number| springs[number as usize]).collect();
         Self { multipliers: vec![[T::default(); 3]; springs.len()], springs }
     }
 

@@ -4,22 +4,16 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::batch::{Batch, batch, factor, shape};
-use super::coloring::color;
+use super::batch::{Batch, batch, factor};
 use super::kernel::CorrectionsOf;
 use super::rule::Sweep;
+use crate::integrators::relaxation::{BATCHES_FOR_THREADS, CHUNK, color_constraints, shape};
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::materials::Law;
 use fem_elements::number::{Lanes, Number};
 use fem_elements::solids::LawWork;
 use fem_elements::tensor::zero;
-
-/// Batches that a thread corrects at a time.
-const CHUNK: usize = 16;
-
-/// From this many batches of a colour on several threads share them.
-const BATCHES_FOR_THREADS: usize = 4 * CHUNK;
 
 /// The elements of one material, colour after colour.
 pub(super) struct Elements<T: Real, const N: usize> {
@@ -50,12 +44,11 @@ impl<T: Real, const N: usize> Elements<T, N> {
     pub fn new(system: &System<T>, material: usize, elements: &[[usize; N]]) -> Self {
         let numbers = system.elements.numbers(material);
         let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
-        let coloring = color(system.nodes(), &corners);
         let mut new =
             Self { material, corners: Vec::new(), batches: Vec::new(), colors: Vec::new(), moves: Vec::new() };
-        for range in coloring.colors {
+        for color in color_constraints(system.nodes(), &corners) {
             let first = new.batches.len();
-            for chosen in coloring.order[range].chunks(T::WIDTH) {
+            for chosen in color.chunks(T::WIDTH) {
                 let of_lane = |lane: usize| chosen.get(lane).map(|&element| element as usize);
                 let shape = |lane: usize| {
                     let element = of_lane(lane)?;

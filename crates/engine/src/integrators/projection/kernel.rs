@@ -4,8 +4,9 @@ use pulp::{Simd, WithSimd};
 
 use super::batch::Batch;
 use super::rule::{Rule, Sweep};
-use super::scalar::{by_energy, by_volume, inner};
+use super::scalar::{by_energy, by_volume};
 use super::stress::change_of_stress;
+use crate::integrators::relaxation::inner;
 use fem_elements::materials::Law;
 use fem_elements::number::Float;
 use fem_elements::number::{Lanes, Number, constant};

@@ -5,7 +5,6 @@
 //! methods. Constraints of elements are coloured, so that the result does not depend on the number of threads.
 
 mod batch;
-mod coloring;
 mod constraints;
 mod distances;
 mod drag_constraints;
@@ -15,6 +14,5 @@ mod rule;
 mod scalar;
 mod stress;
 
-pub use batch::shape;
 pub use constraints::Constraints;
 pub use rule::Rule;

@@ -1,5 +1,6 @@
 //! Constraints of one number for an element: the energy of XPBD, the volume of PBD.
 
+use crate::integrators::relaxation::inner;
 use fem_elements::materials::Law;
 use fem_elements::number::{Lanes, Number, constant};
 use fem_elements::tensor::{Tensor, cofactor, dot, map, plus_identity, volume_change};
@@ -9,12 +10,6 @@ const NO_ENERGY: f64 = 1e-28;
 
 /// Largest energy density of a deformation that the law allows, J/m³.
 const LARGEST: f64 = 1e38;
-
-/// a · b
-#[inline(always)]
-pub(super) fn inner<L: Number>(a: &[L; 3], b: &[L; 3]) -> L {
-    a[2].times_plus(b[2], a[1].times_plus(b[1], a[0] * b[0]))
-}
 
 /// Σ_a Σ_i m_a⁻¹ (X ∇φ_a)_i²: the inverse mass of a correction along X.
 #[inline(always)]

@@ -2,11 +2,16 @@
 //! loads alone, sweeps correct these positions, and velocities follow from them: Müller, Heidelberger, Hennix and Ratcliff,
 //! Position based dynamics (2007), algorithm 1. A method implements its sweep in [`Relaxation`].
 
+mod coloring;
 mod contact;
 mod particles;
+mod shape;
 
+pub(crate) use coloring::color_nodes;
+pub use coloring::{cliques_of_nodes, color_constraints};
 pub use contact::{ContactStep, PlaneContacts};
 pub use particles::{Particles, largest_difference};
+pub use shape::{Shape, inner, shape};
 
 use fem_model::IterationSettings;
 use fem_model::simulation::{Cause, Counters, History};
@@ -16,6 +21,12 @@ use crate::forces::contact::planes::Planes;
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
+
+/// Batches of one colour that a thread takes at a time.
+pub const CHUNK: usize = 16;
+
+/// From this many batches of a colour on several threads share them.
+pub const BATCHES_FOR_THREADS: usize = 4 * CHUNK;
 
 /// A relaxation method: each sweep moves every node of a body once.
 pub trait Relaxation<T: Real>: Send {
