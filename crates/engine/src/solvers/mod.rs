@@ -30,7 +30,7 @@ pub use solver::{Solver, SolverCounters};
 #[cfg(feature = "gpu")]
 pub(crate) use assembly::DeviceElements;
 #[cfg(feature = "gpu")]
-pub(crate) use device::device as open_device;
+pub use device::device as open_device;
 pub(crate) use device::unusable as unusable_device;
 pub(crate) use fallback::factor_fits;
 pub(crate) use inverse::{ApproximateInverse, Memory, Memoryless};

@@ -2,8 +2,6 @@
 
 #[cfg(feature = "gpu")]
 mod gpu;
-#[cfg(all(test, feature = "gpu"))]
-mod tests;
 
 #[cfg(feature = "gpu")]
 pub use gpu::{device, is_software, name, solver, unusable};

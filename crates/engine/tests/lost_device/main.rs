@@ -1,9 +1,8 @@
-//! A device that is lost in the middle of a run.
+//! A device that is lost in the middle of a run: a program of its own, since all simulations of a process share the device.
 
+use fem_engine::solvers::open_device;
 use fem_model::simulation::{Breakdown, Cause};
 use fem_scene::{body, parse};
-
-use super::device;
 
 const SCENE: &str = r#"pipeline = "engine"
 mesh.box = { size = [2, 1, 1], cells_per_unit = 2 }
@@ -17,14 +16,14 @@ solver.kind = "gpu"
 /// Runs two laws: the device assembles the matrices of the first law, and the processor those of the second.
 #[test]
 fn a_run_whose_device_is_lost_ends_with_its_last_state_and_says_so() {
-    let device = match device() {
+    let device = match open_device() {
         Ok(device) => device,
         Err(error) => return println!("skipped: {error}"),
     };
     let start = |model: &str| {
         let scene = parse(&SCENE.replace("MODEL", model), "lost.toml".as_ref()).unwrap();
         let body = body(&scene, "no data".as_ref()).unwrap();
-        let mut simulation = crate::simulator::build(body, &scene.method()).unwrap();
+        let mut simulation = fem_engine::simulator::build(body, &scene.method()).unwrap();
         simulation.step().unwrap();
         simulation
     };
