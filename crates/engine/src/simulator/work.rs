@@ -174,7 +174,7 @@ impl<T: Real> Simulator<T> {
         let Self { system, state, last_good: before, substep_dt: dt, kind, last_forces, .. } = self;
         let is_known = takes_forces_at_end(*kind) || !last_forces.damping.is_empty();
         match evaluation.filter(|_| is_known) {
-            // An evaluation knows their sum alone.
+            // An evaluation has the sum of both forces.
             Some(LastEvaluation { damping, .. }) if system.damping.is_none() => {
                 [0.0, self.work_of(damping, &last_forces.damping, &room.change)]
             }

@@ -277,7 +277,7 @@ impl Content {
             String::new()
         };
         self.notes.tell(format!(
-            "{count} elements have nodes between their corners, which are not read; `order = 2` in `[mesh]` makes them anew, on the middles of \
+            "nodes between the corners of {count} elements are not read; `order = 2` in `[mesh]` makes them anew, on the middles of \
              their edges{bent}"
         ));
         // A node that is a corner of another element stays.

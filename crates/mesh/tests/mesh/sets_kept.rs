@@ -132,7 +132,7 @@ fn included_files_continued_rows_and_quadratic_elements_are_read() {
     assert_eq!(mesh.sets["all of it"].elements, [0]);
     assert_eq!(mesh.sets["fix"].points, [0, 1]);
     assert!(
-        found.notes.iter().any(|note| note.contains("1 elements have nodes between their corners")),
+        found.notes.iter().any(|note| note.contains("nodes between the corners of 1 elements")),
         "{:?}",
         found.notes
     );
