@@ -61,7 +61,10 @@ fn a_poissons_ratio_above_0_45_is_warned_of_in_every_material() {
     let found = warnings(&format!("{LEAST}{}{LEFT}", of("0.46").replace("[1, 1, 1]", "[2, 1, 1]")));
     assert_eq!(found.len(), 1, "{found:?}");
     let beginning = "folder/name.toml: materials[0]: Poisson's ratio is 0.4600, and linear tetrahedra lock near ½";
-    assert!(found[0].starts_with(beginning) && found[0].contains("; refine the mesh"), "{found:?}");
+    assert!(
+        found[0].starts_with(beginning) && found[0].contains("mesh.order = 2") && found[0].contains("refine the mesh"),
+        "{found:?}"
+    );
 }
 
 #[test]
