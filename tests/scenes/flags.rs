@@ -214,7 +214,8 @@ fn colours_of_a_field_that_the_body_does_not_have_are_refused() {
     let desk = Desk::with("cube.toml", CUBE);
     let message = desk.refused("cube.toml --headless --color plastic_strain");
     assert!(message.starts_with("error: --color plastic_strain: the body has no plastic strain"), "{message}");
-    let message = desk.refused("cube.toml --headless --color pressure");
-    assert!(message.contains("stress, plastic_strain, quality"), "{message}");
+    let message = desk.refused("cube.toml --headless --color colour");
+    let names = "stress, pressure, stress_error, displacement, plastic_strain, quality";
+    assert!(message.contains(names), "{message}");
     desk.run_well("cube.toml --headless --color stress");
 }

@@ -202,3 +202,15 @@ fn sweeps_that_leave_a_stiff_body_far_from_balance_end_in_exit_code_1_unless_the
 
     desk.run_well("stiff.toml --headless --steps 3 --set iterations.accept_unconverged=true");
 }
+
+#[test]
+fn the_estimated_error_of_the_stresses_falls_with_the_edges_and_with_quadratic_elements() {
+    let desk = Desk::new();
+    let error = |cells: usize, order: usize| {
+        let arguments = format!("cantilever --set mesh.box.cells_per_unit={cells} --set mesh.order={order}");
+        stats_of(&desk, &format!("{arguments} --export x.vtu"))["stress_error"].as_f64().unwrap()
+    };
+    let [coarse, fine, quadratic] = [error(2, 1), error(4, 1), error(2, 2)];
+    assert!(coarse > 1.4 * fine && coarse > 8.0 * quadratic, "{coarse} {fine} {quadratic}");
+    assert!(desk.read("x.vtu").contains("Name=\"stress_error\""));
+}

@@ -100,7 +100,8 @@ pub struct RunArguments {
     /// Take 30 pictures a second of simulated time
     #[arg(long, value_name = "DIR")]
     pub record: Option<PathBuf>,
-    /// Colour the elements in the window and in pictures: stress (von Mises), plastic_strain or quality
+    /// Colour the elements in the window and in pictures: stress (von Mises), pressure, stress_error (estimated), displacement,
+    /// plastic_strain or quality
     #[arg(long, value_name = "FIELD")]
     pub color: Option<ElementField>,
     /// Print the parts that the scene builds and those that it leaves out, and why, then exit

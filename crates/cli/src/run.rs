@@ -46,8 +46,9 @@ fn check_color(color: Option<ElementField>, simulation: &dyn Simulation) -> Resu
     let Some(missing) = color.filter(|field| !fields.contains(field)) else { return Ok(()) };
     let others = fields.iter().map(|field| field.name()).collect::<Vec<_>>().join(" or ");
     let remedy = match missing {
-        ElementField::Stress => "a law as material.model",
-        ElementField::PlasticStrain | ElementField::Quality => "a table [plasticity]",
+        ElementField::Stress | ElementField::Pressure => "a law as material.model",
+        ElementField::StressError => "a law as material.model and pipeline = \"engine\"",
+        ElementField::PlasticStrain | ElementField::Displacement | ElementField::Quality => "a table [plasticity]",
     };
     Err(End::unusable(format!(
         "--color {missing}: the body has no {}; give the scene {remedy}, or the option {others}",

@@ -159,6 +159,9 @@ pub trait Diagnostics {
     /// The number of the material of each element; empty if all have the same.
     fn material_of_elements(&self) -> Vec<usize>;
 
+    /// Shear modulus and bulk modulus of each element at small strain, Pa; empty for a pipeline that does not know them.
+    fn moduli_of_elements(&self) -> Vec<[f64; 2]>;
+
     /// Plastic flow of the body; `None` for a body without plasticity.
     fn plastic_flow(&self) -> Option<PlasticFlow>;
 
@@ -229,6 +232,10 @@ impl<S: Undiagnosed + Simulation> Diagnostics for S {
     }
 
     fn material_of_elements(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn moduli_of_elements(&self) -> Vec<[f64; 2]> {
         Vec::new()
     }
 

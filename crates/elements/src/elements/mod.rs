@@ -15,7 +15,6 @@ mod kernel;
 mod laws;
 mod parallel;
 mod scatter;
-pub mod shares;
 mod stress;
 
 use std::ops::Range;

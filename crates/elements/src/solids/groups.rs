@@ -234,6 +234,10 @@ impl<T: Float> Solids<T> for Groups<T> {
         self.points_per_element
     }
 
+    fn is_in_plane_stress(&self) -> bool {
+        self.is_in_plane_stress
+    }
+
     fn cauchy_stresses_at_points(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
         let mut stresses = vec![Matrix3::zeros(); self.count];
         for group in &self.groups {

@@ -91,6 +91,9 @@ pub trait Solids<T: Float>: Send + Sync {
     /// Number of quadrature points of an element.
     fn points_per_element(&self) -> usize;
 
+    /// Returns true if no stress acts across a flat body.
+    fn is_in_plane_stress(&self) -> bool;
+
     /// Cauchy stress at each quadrature point, Pa: those of the mesh's first element, then those of the next.
     fn cauchy_stresses_at_points(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>>;
 
@@ -140,7 +143,22 @@ impl<T: Float> dyn Solids<T> + '_ {
         material_of
     }
 
-    /// Shear modulus and bulk modulus of each material at small strain, Pa.
+    /// Shear modulus and bulk modulus of each element of the mesh at small strain, Pa.
+    pub fn moduli_of_elements(&self) -> Vec<[f64; 2]> {
+        let in_space = |[shear, bulk]: [f64; 2]| match self.is_in_plane_stress() {
+            // The law has 2 μ λ/(λ + 2 μ) in place of Lamé's λ.
+            true => {
+                let lambda = bulk - 2.0 / 3.0 * shear;
+                [shear, 2.0 * shear * lambda / (2.0 * shear - lambda) + 2.0 / 3.0 * shear]
+            }
+            false => [shear, bulk],
+        };
+        let moduli: Vec<_> = self.moduli().map(in_space).collect();
+        let materials = self.material_of_elements().into_iter().enumerate();
+        materials.map(|(element, material)| moduli[material].map(|modulus| self.factor(element) * modulus)).collect()
+    }
+
+    /// Shear modulus and bulk modulus of each material at small strain, Pa; in plane stress those of its plane.
     pub fn moduli(&self) -> impl Iterator<Item = [f64; 2]> {
         self.laws().map(|law| law.moduli())
     }

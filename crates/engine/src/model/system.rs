@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
-use fem_elements::elements::shares::{lumped_mass_shares, mass_shares};
 use fem_elements::solids::Solids;
+use fem_model::element::shares::{lumped_mass_shares, mass_shares};
 use fem_model::simulation::Shape;
 use fem_model::{Body, Damping, Interaction, with_elements};
 use nalgebra::{Matrix3, Vector3};

@@ -205,6 +205,10 @@ impl<T: Compiled> Diagnostics for Simulator<T> {
         self.system.elements.material_of_elements()
     }
 
+    fn moduli_of_elements(&self) -> Vec<[f64; 2]> {
+        self.system.elements.moduli_of_elements()
+    }
+
     fn plastic_flow(&self) -> Option<PlasticFlow> {
         let plasticity = self.system.elements.plasticity()?;
         Some(PlasticFlow { strains: self.system.elements.plastic_strains()?, dissipated: plasticity.dissipated() })

@@ -1,6 +1,6 @@
 //! The area with which a node bears on a plane: that of the faces around it which look at the plane.
 
-use fem_engine::elements::shares::face_shares;
+use fem_model::element::shares::face_shares;
 use fem_model::simulation::{Diagnostics, Simulation};
 
 use crate::{CUBE, build, floor, run, text};

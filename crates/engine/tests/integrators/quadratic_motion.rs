@@ -1,6 +1,6 @@
 //! Quadratic triangles in motion.
 
-use fem_engine::elements::shares::{load_shares, lumped_mass_shares};
+use fem_model::element::shares::{load_shares, lumped_mass_shares};
 use fem_model::simulation::Simulation;
 use fem_scene::output::{export, resume, write_state};
 use nalgebra::Vector3;

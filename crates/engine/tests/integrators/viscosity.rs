@@ -1,8 +1,8 @@
 //! Stiffness-proportional damping: it brakes vibrations and no rigid motion, and depends on no rounding error.
 
-use fem_engine::elements::shares::lumped_mass_shares;
 use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::SolverChoice;
+use fem_model::element::shares::lumped_mass_shares;
 use fem_model::simulation::Simulation;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;

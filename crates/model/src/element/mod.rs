@@ -8,6 +8,7 @@ mod linear_triangle;
 mod quadratic_tetrahedron;
 mod quadratic_triangle;
 mod shape_function;
+pub mod shares;
 
 use nalgebra::Vector3;
 

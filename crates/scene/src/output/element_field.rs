@@ -6,7 +6,7 @@ use std::str::FromStr;
 use fem_mesh::{tetrahedron_radius_to_edge, triangle_radius_to_edge};
 use nalgebra::Vector3;
 
-use super::von_mises;
+use super::{StressError, von_mises};
 use fem_model::simulation::Simulation;
 
 /// A field of one number per element.
@@ -14,6 +14,12 @@ use fem_model::simulation::Simulation;
 pub enum ElementField {
     /// Von Mises stress of the Cauchy stress, Pa.
     Stress,
+    /// Minus the mean of the principal stresses, Pa.
+    Pressure,
+    /// Estimated error of the stress, as in [`StressError`].
+    StressError,
+    /// Length of the displacement, the mean over the nodes, m.
+    Displacement,
     /// Plastic strain, as in [`PlasticFlow`](fem_model::simulation::PlasticFlow).
     PlasticStrain,
     /// Circumradius over shortest edge of the deformed element: 1/√3 for an equilateral triangle, √6/4 for a regular tetrahedron,
@@ -23,12 +29,16 @@ pub enum ElementField {
 
 impl ElementField {
     /// All fields.
-    pub const ALL: [Self; 3] = [Self::Stress, Self::PlasticStrain, Self::Quality];
+    pub const ALL: [Self; 6] =
+        [Self::Stress, Self::Pressure, Self::StressError, Self::Displacement, Self::PlasticStrain, Self::Quality];
 
     /// Names for the command line and on the screen, and SI unit, which is empty for a field without one.
     fn facts(self) -> [&'static str; 3] {
         match self {
             Self::Stress => ["stress", "von Mises stress", "Pa"],
+            Self::Pressure => ["pressure", "pressure", "Pa"],
+            Self::StressError => ["stress_error", "estimated error of stress", ""],
+            Self::Displacement => ["displacement", "displacement", "m"],
             Self::PlasticStrain => ["plastic_strain", "plastic strain", ""],
             Self::Quality => ["quality", "circumradius / edge", ""],
         }
@@ -52,8 +62,9 @@ impl ElementField {
     /// The fields that a body has.
     pub fn of(simulation: &dyn Simulation) -> Vec<Self> {
         let exists = |field: &Self| match field {
-            Self::Stress => simulation.has_stress(),
-            Self::Quality => true,
+            Self::Stress | Self::Pressure => simulation.has_stress(),
+            Self::StressError => simulation.has_stress() && !simulation.moduli_of_elements().is_empty(),
+            Self::Displacement | Self::Quality => true,
             Self::PlasticStrain => simulation.plastic_flow().is_some(),
         };
         Self::ALL.into_iter().filter(exists).collect()
@@ -63,6 +74,9 @@ impl ElementField {
     pub fn values(self, simulation: &dyn Simulation) -> Option<Vec<f64>> {
         let values: Vec<f64> = match self {
             Self::Stress => simulation.stresses().iter().map(von_mises).collect(),
+            Self::Pressure => simulation.stresses().iter().map(|stress| -stress.trace() / 3.0).collect(),
+            Self::StressError => StressError::of(simulation)?.of_elements,
+            Self::Displacement => displacements(simulation),
             Self::PlasticStrain => simulation.plastic_flow()?.strains,
             Self::Quality => radius_to_edge(simulation),
         };
@@ -83,6 +97,13 @@ impl FromStr for ElementField {
         let found = Self::ALL.into_iter().find(|field| field.name() == text);
         found.ok_or_else(|| format!("give one of {}", Self::ALL.map(Self::name).join(", ")))
     }
+}
+
+fn displacements(simulation: &dyn Simulation) -> Vec<f64> {
+    let (q, mesh) = (simulation.positions(), &simulation.shape().mesh);
+    let length = |&node: &usize| (q.fixed_rows::<3>(3 * node) - mesh.vertices()[node]).norm();
+    let mean = |nodes: &[usize]| nodes.iter().map(length).sum::<f64>() / nodes.len() as f64;
+    (0..mesh.elements()).map(|element| mean(mesh.nodes_of(element))).collect()
 }
 
 fn radius_to_edge(simulation: &dyn Simulation) -> Vec<f64> {

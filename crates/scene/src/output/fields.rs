@@ -4,6 +4,7 @@ use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::StressError;
 use super::recovery::stresses_at_nodes;
 use fem_mesh::MeshError;
 use fem_mesh::write::{Field, write_vtu};
@@ -12,7 +13,7 @@ use fem_model::simulation::Simulation;
 
 /// Writes the undeformed mesh with the fields of the state. Names have neither blanks nor units, so that programs can use them:
 /// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N), `contact_force` (N), `stress_averaged` (Pa), recovered by patches, and `stress_volume_averaged` (Pa), cell data `stress`,
-/// `von_mises` (Pa), `strain`, `J` and, of a plastic body, `plastic_strain`. A mass-spring body has no fields of stress. Matrices have nine components, row by row.
+/// `von_mises` (Pa), `stress_error`, `strain`, `J` and, of a plastic body, `plastic_strain`. A mass-spring body has no fields of stress. Matrices have nine components, row by row.
 pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let shape = simulation.shape();
     let (q, qdot) = (simulation.positions(), simulation.velocities());
@@ -43,10 +44,14 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
         point.push(Field { name: "contact_force", components: 3, values: contact.as_slice() });
     }
     let flow = simulation.plastic_flow();
+    let error = StressError::of(simulation);
     let mut cell = Vec::new();
     if simulation.has_stress() {
         cell.push(Field { name: "stress", components: 9, values: &stress });
         cell.push(Field { name: "von_mises", components: 1, values: &von_mises });
+    }
+    if let Some(error) = &error {
+        cell.push(Field { name: "stress_error", components: 1, values: &error.of_elements });
     }
     cell.extend([
         Field { name: "strain", components: 9, values: &strain },

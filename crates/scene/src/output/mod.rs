@@ -8,6 +8,7 @@ mod probe;
 mod recovery;
 mod series;
 mod state;
+mod stress_error;
 
 pub use batch::{EnvironmentEnd, write_batch};
 pub use element_field::ElementField;
@@ -16,6 +17,7 @@ pub use fields::von_mises;
 pub use probe::Probe;
 pub use series::Series;
 pub use state::{ResumeError, resume, write_state};
+pub use stress_error::StressError;
 
 use fields::export_fields;
 
@@ -68,6 +70,9 @@ pub struct Stats {
     /// Energy that plastic flow has dissipated, J; without a key for a body without plasticity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dissipated_energy: Option<f64>,
+    /// Estimated error of the stresses, as a part of their energy norm; no key where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stress_error: Option<f64>,
     /// Reaction force of each Dirichlet condition, N; empty without conditions or if the pipeline does not compute reactions.
     pub reactions: serde_json::Map<String, serde_json::Value>,
     /// Force (N) and smallest gap (m) of each obstacle; no key without obstacles.
@@ -124,6 +129,7 @@ impl Stats {
             min_J: simulation.min_J().0,
             largest_plastic_strain: flow.as_ref().map(PlasticFlow::largest_strain),
             dissipated_energy: flow.map(|flow| flow.dissipated),
+            stress_error: StressError::of(simulation).map(|error| error.relative),
             reactions: reactions.collect(),
             contacts: simulation.contacts().into_iter().map(contact).collect(),
             lag_residual: simulation.lag_residual(),

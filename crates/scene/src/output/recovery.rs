@@ -45,20 +45,32 @@ pub(super) fn stresses_at_nodes(
     stresses: &[Matrix3<f64>],
 ) -> Vec<Matrix3<f64>> {
     let mut sums = vec![(Matrix3::zeros(), 0.0); mesh.vertices().len()];
+    for (_, found) in stresses_of_materials(mesh, material_of, stresses) {
+        for (sum, stress) in sums.iter_mut().zip(&found) {
+            if let Some(stress) = stress {
+                sum.0 += stress;
+                sum.1 += 1.0;
+            }
+        }
+    }
+    sums.into_iter().map(|(sum, count)| if count > 0.0 { sum / count } else { sum }).collect()
+}
+
+/// The elements of each material, and the stresses of their nodes, Pa; `None` for a node that belongs to other materials.
+pub(super) fn stresses_of_materials(
+    mesh: &BodyMesh,
+    material_of: &[usize],
+    stresses: &[Matrix3<f64>],
+) -> impl Iterator<Item = (Vec<usize>, Vec<Option<Matrix3<f64>>>)> {
     let material = |element: usize| material_of.get(element).copied().unwrap_or(0);
-    for number in 0..=material_of.iter().copied().max().unwrap_or(0) {
+    (0..=material_of.iter().copied().max().unwrap_or(0)).map(move |number| {
         let elements: Vec<usize> = (0..mesh.elements()).filter(|&element| material(element) == number).collect();
         let part = Part::new(mesh, stresses, &elements);
         let fits: Vec<Option<Fit>> = (0..part.around.len()).map(|corner| part.fit_inside(corner)).collect();
-        for node in 0..part.around.len() {
-            if let Some(stress) = part.at_corner(node, &fits) {
-                sums[node].0 += stress;
-                sums[node].1 += 1.0;
-            }
-        }
-        part.add_middles(&elements, &fits, &mut sums);
-    }
-    sums.into_iter().map(|(sum, count)| if count > 0.0 { sum / count } else { sum }).collect()
+        let mut found: Vec<_> = (0..part.around.len()).map(|node| part.at_corner(node, &fits)).collect();
+        part.add_middles(&elements, &fits, &mut found);
+        (elements, found)
+    })
 }
 
 impl<'a> Part<'a> {
@@ -191,14 +203,10 @@ impl<'a> Part<'a> {
     }
 
     /// Adds the stresses at the middles of sides, each the mean of what the patches of the two ends give there.
-    fn add_middles(&self, elements: &[usize], fits: &[Option<Fit>], sums: &mut [(Matrix3<f64>, f64)]) {
-        let mut is_done = vec![false; sums.len()];
+    fn add_middles(&self, elements: &[usize], fits: &[Option<Fit>], found: &mut [Option<Matrix3<f64>>]) {
         for ([a, b], middle) in elements.iter().flat_map(|&element| self.mesh.middles_of(element)) {
-            if !std::mem::replace(&mut is_done[middle], true) {
-                let x = &self.mesh.vertices()[middle];
-                sums[middle].0 += 0.5 * (self.at(a, x, fits) + self.at(b, x, fits));
-                sums[middle].1 += 1.0;
-            }
+            let x = &self.mesh.vertices()[middle];
+            found[middle].get_or_insert_with(|| 0.5 * (self.at(a, x, fits) + self.at(b, x, fits)));
         }
     }
 }

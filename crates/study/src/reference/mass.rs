@@ -1,7 +1,7 @@
 //! The inverse mass matrix of the reference, factorised exactly.
 
-use fem_engine::elements::shares::lumped_mass_shares;
 use fem_engine::simulator::double::System;
+use fem_model::element::shares::lumped_mass_shares;
 use fem_model::{Body, BodyMesh};
 
 use super::ldl::Ldl;

@@ -18,6 +18,7 @@ use fem_engine::tensor::{Tensor, from_fn};
 use fem_model::element::Element;
 use fem_model::simulation::{Counters, Simulation};
 use fem_model::{Body, BodyMesh};
+use fem_scene::output::StressError;
 use fem_scene::tables::FixedTable;
 use fem_scene::{Scene, body, parse};
 
@@ -53,6 +54,8 @@ pub struct Solved {
     pub mesh: BodyMesh,
     /// Positions of all nodes, m.
     pub q: DVector<f64>,
+    /// Estimated error of the stresses.
+    pub stress_error: Option<StressError>,
     /// ‖u − u_h‖ / ‖u‖ over the body.
     pub l2: f64,
     /// ‖∇u − ∇u_h‖ / ‖∇u‖ over the body.
@@ -143,7 +146,8 @@ pub fn solve(model: &str, element: &Element, cells: usize) -> Result<Solved, Str
     let u = simulation.system().numbering.to_mesh(&simulation.state().u);
     let (l2, h1) = errors(&mesh, &u, exact);
     let q = DVector::from_fn(3 * u.len(), |i, _| mesh.vertices()[i / 3][i % 3] + u[i / 3][i % 3]);
-    Ok(Solved { scene, mesh, q, l2, h1, counters: simulation.counters(), seconds })
+    let stress_error = StressError::of(&simulation);
+    Ok(Solved { scene, mesh, q, stress_error, l2, h1, counters: simulation.counters(), seconds })
 }
 
 /// The unit cube or square with fixed sides.
@@ -259,6 +263,41 @@ mod tests {
                 let [in_l2, in_h1] = orders(element);
                 assert!((l2 - in_l2).abs() < 0.1 && (h1 - in_h1).abs() < 0.1, "{} {model}: {l2} {h1}", element.name);
             }
+        }
+    }
+
+    /// The error of the stresses of a linear law in its energy norm, as a part of the norm of the stresses.
+    fn true_error(solved: &Solved, exact: Exact) -> f64 {
+        let law = AnyLaw::<f64>::new(&solved.scene.material.value()).unwrap();
+        let energy = |G: &Tensor<f64>| <f64 as fem_engine::Real>::law(&law).energy(G);
+        let (mesh, points) = (&solved.mesh, points(&solved.mesh));
+        let [mut error, mut size] = [0.0; 2];
+        for (element, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
+            for point in &points {
+                let is = exact.gradient(&point.place(mesh, nodes));
+                let u = |node: usize| solved.q.fixed_rows::<3>(3 * node) - mesh.vertices()[node];
+                let found = mesh.displacement_gradient_at(element, &point.barycentric, u);
+                error += volume * point.weight * energy(&from_fn(|i, j| found[(i, j)] - is[i][j]));
+                size += volume * point.weight * energy(&is);
+            }
+        }
+        (error / size).sqrt()
+    }
+
+    #[test]
+    fn the_estimated_error_of_the_stresses_approaches_the_true_one() {
+        for element in Element::ALL {
+            let exact = Exact { dimensions: element.dimension };
+            let cells = if element.dimension == 2 { [8, 16] } else { [6, 12] };
+            let [coarse, fine] = cells.map(|cells| {
+                let solved = solve("linear", element, cells).unwrap();
+                solved.stress_error.as_ref().unwrap().relative / true_error(&solved, exact)
+            });
+            assert!(
+                [coarse, fine].iter().all(|ratio| (0.95..1.05).contains(ratio)),
+                "{}: {coarse} {fine}",
+                element.name
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Distances between two states of a body. The state files contain all their data.
 
-use fem_engine::elements::shares::{load_shares, lumped_mass_shares};
 use fem_model::BodyMesh;
+use fem_model::element::shares::{load_shares, lumped_mass_shares};
 
 /// Weights of the nodes, m³: their shares of the volume of every adjacent element, which are the row sums of its consistent mass over the
 /// density. Those of corners of quadratic triangles are zero: sums over the nodes are integrals by the rule of mid-sides. Those of quadratic

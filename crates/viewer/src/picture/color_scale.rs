@@ -49,16 +49,17 @@ pub struct ColorScale {
 }
 
 impl ColorScale {
-    /// A scale for a field of these values. Stress and plastic strain begin at zero and end at a round number.
+    /// A scale for a field of these values. It ends at a round number and begins at zero, or at minus that number if there are negative values.
     pub fn new(field: ElementField, values: &[f64]) -> Self {
         match field {
             // The best value of a triangle is the smaller one of both kinds of element.
             ElementField::Quality => ColorScale { field, low: 1.0 / 3f64.sqrt(), high: WORST },
-            ElementField::Stress | ElementField::PlasticStrain => {
+            _ => {
                 // A small number for a field of zeros.
                 let largest = largest(values);
                 let high = if largest < 1e-300 { 1e-6 } else { round_up(largest, &[1.0, 2.0, 3.0, 5.0]) };
-                ColorScale { field, low: 0.0, high }
+                let low = if values.iter().any(|&value| value < 0.0) { -high } else { 0.0 };
+                ColorScale { field, low, high }
             }
         }
     }
@@ -67,7 +68,8 @@ impl ColorScale {
     pub fn next(former: Option<Self>, field: ElementField, values: &[f64]) -> Self {
         let fits = |scale: &Self| {
             let largest = largest(values);
-            scale.field == field && largest <= scale.high && largest >= FALLS_BELOW * scale.high
+            let has_room = scale.low < 0.0 || values.iter().all(|&value| value >= 0.0 || value.is_nan());
+            scale.field == field && has_room && largest <= scale.high && largest >= FALLS_BELOW * scale.high
         };
         former.filter(fits).unwrap_or_else(|| Self::new(field, values))
     }
@@ -80,7 +82,7 @@ impl ColorScale {
 }
 
 fn largest(values: &[f64]) -> f64 {
-    values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max)
+    values.iter().map(|value| value.abs()).filter(|value| value.is_finite()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -105,6 +107,14 @@ mod tests {
             [scale.share(-1.0), scale.share(500.0), scale.share(1e9), scale.share(f64::NAN)],
             [0.0, 0.25, 1.0, 1.0]
         );
+    }
+
+    #[test]
+    fn a_scale_with_negative_values_reaches_as_far_below_zero_as_above() {
+        let scale = ColorScale::new(ElementField::Pressure, &[100.0, -1234.0]);
+        assert_eq!((scale.low, scale.high), (-2000.0, 2000.0));
+        let positive = ColorScale::new(ElementField::Pressure, &[1000.0]);
+        assert_eq!(ColorScale::next(Some(positive), ElementField::Pressure, &[1000.0, -1.0]).low, -1000.0);
     }
 
     #[test]

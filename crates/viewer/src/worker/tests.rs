@@ -177,6 +177,9 @@ impl Diagnostics for Fake {
     fn material_of_elements(&self) -> Vec<usize> {
         Vec::new()
     }
+    fn moduli_of_elements(&self) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
     fn plastic_flow(&self) -> Option<PlasticFlow> {
         None
     }

@@ -1,7 +1,7 @@
 //! The parts of loads and masses that nodes carry.
 
-use fem_elements::elements::shares::{face_shares, load_shares, lumped_mass_shares, mass_shares};
 use fem_model::element::Element;
+use fem_model::element::shares::{face_shares, load_shares, lumped_mass_shares, mass_shares};
 
 /// Points and weights of the Gauss–Legendre rule of four points on [0, 1], exact for degree 7.
 fn gauss() -> [(f64, f64); 4] {

@@ -5,9 +5,9 @@
 //! within it, as the normal forces of friction do: the barrier remains a potential of the distances alone. The energy that a change of the
 //! areas adds from step to step is of the order of the load times d̂ times the angle turned through.
 
-use fem_elements::elements::shares::face_shares;
 use fem_model::Body;
 use fem_model::element::Element;
+use fem_model::element::shares::face_shares;
 use nalgebra::Vector3;
 
 use crate::numbering::Numbering;

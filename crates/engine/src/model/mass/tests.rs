@@ -1,9 +1,9 @@
 //! Masses of simplices and of quadratic triangles.
 
 use super::Mass;
-use fem_elements::elements::shares::mass_shares;
 use fem_elements::sparse::{Pattern, Stored};
 use fem_model::element::Element;
+use fem_model::element::shares::mass_shares;
 
 /// The mass matrix of the element with `N` nodes.
 fn shares<const N: usize>() -> [[f64; N]; N] {

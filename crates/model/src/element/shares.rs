@@ -3,7 +3,7 @@
 //! They are sums of rational numbers, which come out exactly rounded: O. C. Zienkiewicz and R. L. Taylor, The Finite Element Method 1, section 8.8,
 //! gives ∫ L₀^a L₁^b … over a simplex of unit volume in d dimensions, d! a! b! … / (a + b + … + d)!.
 
-use fem_model::element::{Element, ShapeFunction};
+use super::{Element, ShapeFunction};
 
 /// A common multiple of the denominators of all integrals here: of degree 4 in space, 7!.
 const DENOMINATOR: f64 = 5040.0;
@@ -32,9 +32,13 @@ pub fn face_shares(element: &Element) -> Vec<f64> {
 
 /// The consistent mass matrix of an element of `N` nodes and unit mass: ∫ φ_i φ_j over its volume.
 pub fn mass_shares<const N: usize>(element: &Element) -> [[f64; N]; N] {
+    std::array::from_fn(|i| std::array::from_fn(|j| mass_share(element, i, j)))
+}
+
+/// An entry of that matrix.
+pub fn mass_share(element: &Element, i: usize, j: usize) -> f64 {
     let functions = element.shape_functions;
-    let entry = |i: usize, j: usize| integral(element.dimension, [&functions[i], &functions[j]]) / DENOMINATOR;
-    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+    integral(element.dimension, [&functions[i], &functions[j]]) / DENOMINATOR
 }
 
 /// The part of an element's mass that each of its nodes carries where the mass is lumped. Row sums of the consistent mass would leave
