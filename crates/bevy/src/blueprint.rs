@@ -85,12 +85,13 @@ fn check_method(scene: &Scene) -> Result<(), SoftBodyError> {
 }
 
 fn set_material(scene: &mut Scene, material: &SoftBodyMaterial) {
-    let MaterialTable { thickness, plane, .. } = scene.material;
+    let MaterialTable { thickness, plane, volumetric, .. } = scene.material;
     scene.material = MaterialTable {
         model: material.model.clone(),
         density: material.density,
         thickness,
         plane,
+        volumetric,
         young: Some(material.young),
         poisson: Some(material.poisson),
         ..MaterialTable::default()

@@ -84,6 +84,12 @@ impl Body {
         Ok(Self::of_shape(Shape { boundary: mesh.surface(), mesh, display: None, picture: None }, material))
     }
 
+    /// Returns true if a material averages the energy of the volume.
+    pub fn averages_volume(&self) -> bool {
+        let regions = self.regions.iter().map(|region| &region.material);
+        std::iter::once(&self.material).chain(regions).any(|material| material.averaged_volume().is_some())
+    }
+
     /// The same of a shape and a material that have been checked.
     pub fn of_shape(shape: Shape, material: Material) -> Self {
         Self {

@@ -56,7 +56,9 @@ pub use fields::*;
 pub use integrator::{CONSISTENT_MASS, Facts, Family, Integrator};
 pub use interaction::{Anchor, Interaction};
 pub use loads::{Drag, NodalForce, Pressure, Spring, Traction, highest_node};
-pub use material::{EdgeStiffness, Elastic, Given, Law, LawFacts, Material, NeoHookean, PlaneState};
+pub use material::{
+    EdgeStiffness, Elastic, Given, Law, LawFacts, Material, NeoHookean, PlaneState, VolumeEnergy, Volumetric,
+};
 pub use method::{Damping, DampingForm, IterationSettings, Method, NewmarkParameters, NewtonSettings, Projection};
 pub use planes::{ContactPlane, PlaneMotion};
 pub use plasticity::Plasticity;

@@ -14,6 +14,8 @@ pub struct Material {
     pub density: f64,
     /// State of a flat body across its plane.
     pub plane: PlaneState,
+    /// Evaluation of the energy of the volume.
+    pub volumetric: Volumetric,
 }
 
 /// A constitutive law with its parameters.
@@ -115,6 +117,8 @@ pub struct LawFacts {
     pub parameters: &'static [&'static [&'static str]],
     /// True if the law has a form for plane stress.
     pub has_plane_stress: bool,
+    /// The energy of the volume, if the law is the sum of one and of an energy that does not depend on the volume.
+    pub volume: Option<VolumeEnergy>,
     /// The law with given parameters; those that are missing are NaN, which [`Material::check`] refuses.
     pub of: fn(&Given) -> Law,
 }
@@ -166,6 +170,29 @@ pub enum PlaneState {
     Stress,
 }
 
+/// Where the part of the energy that depends on the volume is evaluated.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Volumetric {
+    /// At each quadrature point. As Poisson's ratio approaches ½, elements lock: linear ones most, quadratic ones a little.
+    #[default]
+    Standard,
+    /// At the mean of J = det F over a quadratic element, or over a patch of about four linear triangles or eight tetrahedra: they lock far less. For the laws `linear`,
+    /// `neo_hookean`, `hencky`, `mooney_rivlin`, `yeoh` and `gent`; not in plane stress. Engine only.
+    Averaged,
+}
+
+/// An energy of the volume, with the bulk modulus K.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VolumeEnergy {
+    /// K/2 (tr G)², the law's J being 1 + tr G.
+    Trace,
+    /// K/2 (J − 1)².
+    Change,
+    /// K/2 (ln J)².
+    Logarithm,
+}
+
 /// Poisson's ratio above which linear tetrahedra lock visibly.
 const LOCKS_ABOVE: f64 = 0.45;
 
@@ -208,28 +235,34 @@ fn elastic(given: &Given) -> Elastic {
 impl Law {
     /// The constitutive laws.
     pub const FACTS: [LawFacts; 9] = {
-        const fn of_elastic(name: &'static str, has_plane_stress: bool, of: fn(&Given) -> Law) -> LawFacts {
-            LawFacts { name, parameters: &[ELASTIC], has_plane_stress, of }
+        use VolumeEnergy::{Change, Logarithm, Trace};
+        const fn of_elastic(
+            name: &'static str,
+            has_plane_stress: bool,
+            volume: Option<VolumeEnergy>,
+            of: fn(&Given) -> Law,
+        ) -> LawFacts {
+            LawFacts { name, parameters: &[ELASTIC], has_plane_stress, volume, of }
         }
         const fn of(
             name: &'static str,
             parameters: &'static [&'static [&'static str]],
             of: fn(&Given) -> Law,
         ) -> LawFacts {
-            LawFacts { name, parameters, has_plane_stress: false, of }
+            LawFacts { name, parameters, has_plane_stress: false, volume: Some(Change), of }
         }
         [
-            of_elastic("linear", true, |given| Self::Linear(elastic(given))),
-            of_elastic("corotated", true, |given| Self::Corotated(elastic(given))),
-            of_elastic("st_venant_kirchhoff", false, |given| Self::StVenantKirchhoff(elastic(given))),
+            of_elastic("linear", true, Some(Trace), |given| Self::Linear(elastic(given))),
+            of_elastic("corotated", true, None, |given| Self::Corotated(elastic(given))),
+            of_elastic("st_venant_kirchhoff", false, None, |given| Self::StVenantKirchhoff(elastic(given))),
             of("neo_hookean", &[&["C", "D"], ELASTIC], |given| {
                 Self::NeoHookean(match (given("C"), given("D")) {
                     (Some(C), Some(D)) => NeoHookean::Moduli { C, D },
                     _ => NeoHookean::Elastic(elastic(given)),
                 })
             }),
-            of_elastic("stable_neo_hookean", false, |given| Self::StableNeoHookean(elastic(given))),
-            of_elastic("hencky", false, |given| Self::Hencky(elastic(given))),
+            of_elastic("stable_neo_hookean", false, None, |given| Self::StableNeoHookean(elastic(given))),
+            of_elastic("hencky", false, Some(Logarithm), |given| Self::Hencky(elastic(given))),
             of("mooney_rivlin", &[&["C10", "C01", "D"]], |given| {
                 let [C10, C01, D] = ["C10", "C01", "D"].map(|name| number(given, name));
                 Self::MooneyRivlin { C10, C01, D }
@@ -250,6 +283,7 @@ impl Law {
         name: "mass_spring",
         parameters: &[&["stiffness"], &["young"], &["stiffness", "damping"], &["young", "damping"]],
         has_plane_stress: false,
+        volume: None,
         of: |given| Self::MassSpring {
             stiffness: given("stiffness").map_or(EdgeStiffness::Young(number(given, "young")), EdgeStiffness::Uniform),
             damping: given("damping").unwrap_or(0.0),
@@ -357,7 +391,7 @@ impl Law {
 impl Material {
     /// A material of a density, kg/m³; plane strain if the body is flat.
     pub fn new(law: Law, density: f64) -> Self {
-        Self { law, density, plane: PlaneState::Strain }
+        Self { law, density, plane: PlaneState::Strain, volumetric: Volumetric::Standard }
     }
 
     /// Lamé's constants μ and λ, Pa, of a law with Young's modulus and Poisson's ratio.
@@ -370,9 +404,16 @@ impl Material {
         matches!(self.law, Law::MassSpring { .. })
     }
 
+    /// The energy of the volume, if it is averaged.
+    pub fn averaged_volume(&self) -> Option<VolumeEnergy> {
+        let volume = Law::named(self.law.name()).and_then(|facts| facts.volume);
+        volume.filter(|_| self.volumetric == Volumetric::Averaged)
+    }
+
     /// Returns true if linear tetrahedra lock: Poisson's ratio is above 0.45.
     pub fn locks(&self) -> bool {
-        self.law.poissons_ratio().is_some_and(|poisson| poisson > LOCKS_ABOVE)
+        self.volumetric == Volumetric::Standard
+            && self.law.poissons_ratio().is_some_and(|poisson| poisson > LOCKS_ABOVE)
     }
 
     /// Refuses parameters and a density out of range. `table` names the material, such as `material` or `materials[0]`.
@@ -392,6 +433,27 @@ impl Material {
                 _ => check_positive(&field, value, " of Pa")?,
             }
         }
-        Ok(())
+        self.check_volumetric(&format!("{table}.volumetric"))
+    }
+
+    fn check_volumetric(&self, field: &str) -> Result<(), Refusal> {
+        if self.volumetric == Volumetric::Standard {
+            return Ok(());
+        }
+        if self.averaged_volume().is_none() {
+            let known: Vec<_> =
+                Law::FACTS.iter().filter(|facts| facts.volume.is_some()).map(|facts| facts.name).collect();
+            let (own, known) = (self.law.name(), known.join(", "));
+            let text =
+                format!("is \"averaged\", and `{own}` has no energy of the volume alone; take {known}, or remove it");
+            return problem(field, text);
+        }
+        match self.plane {
+            PlaneState::Strain => Ok(()),
+            PlaneState::Stress => problem(
+                field,
+                "is \"averaged\", and in plane stress nothing holds the volume and no element locks; remove it",
+            ),
+        }
     }
 }

@@ -107,6 +107,16 @@ macro_rules! laws {
                 of_all_lanes.map(|modulus| $crate::number::Float::as_f64(modulus.lane(0)))
             }
 
+            /// What the quadrature points keep of the law where the volume is averaged: Lamé's λ is zero, or stays if it is negative. `None` if the law
+            /// has no energy of the volume alone.
+            pub fn without_lambda(&self) -> Option<Self> {
+                let [shear, bulk] = self.moduli();
+                let kept = $crate::number::constant(f64::min(bulk, 2.0 / 3.0 * shear));
+                match self {
+                    $(Self::$Law(law) => law.with_bulk_modulus(kept).map(Self::$Law),)*
+                }
+            }
+
             /// The sum of its moduli, Pa: the size of its stress where strain is 1.
             pub fn size(&self) -> f64 {
                 self.moduli().iter().sum()

@@ -6,7 +6,7 @@
 use super::isochoric::Isochoric;
 use super::{Law, NamedLaw, OfInvariants, Terms};
 use crate::number::{Number, constant, minus_ln_1p};
-use crate::tensor::{Tensor, Tensor4};
+use crate::tensor::{Tensor, Tensor4, half};
 
 /// Moduli, Pa, and the limit of the chains. Small strain: μ = 2C, bulk modulus 2D.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,5 +80,9 @@ impl<T: Number> NamedLaw<T> for Gent<T> {
 
     fn moduli(&self) -> [T; 2] {
         [self.C + self.C, self.D + self.D]
+    }
+
+    fn with_bulk_modulus(self, bulk: T) -> Option<Self> {
+        Some(Self { D: half::<T>() * bulk, ..self })
     }
 }

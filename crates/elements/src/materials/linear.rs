@@ -80,4 +80,8 @@ impl<T: Number> NamedLaw<T> for Linear<T> {
     fn moduli(&self) -> [T; 2] {
         [self.mu, self.lambda + constant::<T>(2.0 / 3.0) * self.mu]
     }
+
+    fn with_bulk_modulus(self, bulk: T) -> Option<Self> {
+        Some(Self { lambda: bulk - constant::<T>(2.0 / 3.0) * self.mu, ..self })
+    }
 }

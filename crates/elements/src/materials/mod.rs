@@ -126,6 +126,11 @@ pub trait NamedLaw<T: Number>: Law<T> + Copy {
 
     /// Shear modulus and bulk modulus of small strain, Pa.
     fn moduli(&self) -> [T; 2];
+
+    /// The law with another bulk modulus, Pa; `None` if it is not the sum of an energy of the volume and of one that does not depend on it.
+    fn with_bulk_modulus(self, _bulk: T) -> Option<Self> {
+        None
+    }
 }
 
 impl<T: Number, L: Law<T> + ?Sized> Law<T> for &L {

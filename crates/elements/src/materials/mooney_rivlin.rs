@@ -13,7 +13,7 @@ use super::isotropic::projected_derivative_from;
 use super::{Law, NamedLaw, OfInvariants};
 use crate::number::{Number, constant};
 use crate::svd::svd;
-use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, plus_identity, product, trace, transpose};
+use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, half, plus_identity, product, trace, transpose};
 
 /// Moduli, Pa. Small strain: μ = 2 (C10 + C01), which must be positive, bulk modulus 2D.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,5 +149,9 @@ impl<T: Number> NamedLaw<T> for MooneyRivlin<T> {
     fn moduli(&self) -> [T; 2] {
         let two = constant::<T>(2.0);
         [two * (self.C10 + self.C01), two * self.D]
+    }
+
+    fn with_bulk_modulus(self, bulk: T) -> Option<Self> {
+        Some(Self { D: half::<T>() * bulk, ..self })
     }
 }

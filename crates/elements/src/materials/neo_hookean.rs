@@ -4,7 +4,7 @@
 use super::isochoric::Isochoric;
 use super::{Law, NamedLaw, OfInvariants, Terms};
 use crate::number::{Number, constant};
-use crate::tensor::{Tensor, Tensor4};
+use crate::tensor::{Tensor, Tensor4, half};
 
 /// Moduli, Pa. Small strain: μ = 2C, bulk modulus 2D.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,5 +64,9 @@ impl<T: Number> NamedLaw<T> for NeoHookean<T> {
 
     fn moduli(&self) -> [T; 2] {
         [self.C + self.C, self.D + self.D]
+    }
+
+    fn with_bulk_modulus(self, bulk: T) -> Option<Self> {
+        Some(Self { D: half::<T>() * bulk, ..self })
     }
 }

@@ -7,7 +7,7 @@
 use super::isochoric::Isochoric;
 use super::{Law, NamedLaw, OfInvariants, Terms};
 use crate::number::{Number, constant};
-use crate::tensor::{Tensor, Tensor4};
+use crate::tensor::{Tensor, Tensor4, half};
 
 /// Moduli, Pa. Small strain: μ = 2 C1, bulk modulus 2D; C2 is often negative. Where f' < 0, which negative C2 and C3 allow,
 /// the law yields without resistance.
@@ -80,5 +80,9 @@ impl<T: Number> NamedLaw<T> for Yeoh<T> {
 
     fn moduli(&self) -> [T; 2] {
         [self.C1 + self.C1, self.D + self.D]
+    }
+
+    fn with_bulk_modulus(self, bulk: T) -> Option<Self> {
+        Some(Self { D: half::<T>() * bulk, ..self })
     }
 }

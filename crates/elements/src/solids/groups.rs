@@ -12,7 +12,7 @@ use crate::elements::smaller;
 use crate::materials::{
     AnyLaw, KelvinVoigt, QuadraticForm, Vectorized, cauchy_stress, in_plane_stress, match_inlined_law, with_inlined_law,
 };
-use crate::number::{Float, constant};
+use crate::number::{Float, Number, constant};
 use crate::plasticity::{Internal, Plasticity};
 use crate::sparse::{Block, Pattern};
 
@@ -46,8 +46,10 @@ impl<T: Float> Groups<T> {
             if let Some(fast) = &fast {
                 assert_eq!(fast.moduli(), law.moduli(), "the law is that of the body's material");
             }
-            let fast = fast.map(|fast| SolidLaws::new(fast, is_in_plane));
-            Solid { laws: SolidLaws::new(law, is_in_plane), fast, elements, numbers }
+            let (moduli, is_averaged) = (law.moduli(), material.averaged_volume().is_some());
+            let fast = fast.map(|fast| SolidLaws::new(at_points(fast, is_averaged), is_in_plane));
+            let laws = SolidLaws::new(at_points(law, is_averaged), is_in_plane);
+            Solid { laws, fast, elements, moduli, numbers }
         };
         let groups = if body.regions.is_empty() {
             vec![Solid { numbers: Vec::new(), ..group((law, &body.material), (0..count).collect()) }]
@@ -98,6 +100,11 @@ impl<T: Float> Groups<T> {
         }
         least
     }
+}
+
+/// The law of the elements: where the volume is averaged, the rest of its energy is a force of its own.
+fn at_points<L: Number>(law: AnyLaw<L>, is_averaged: bool) -> AnyLaw<L> {
+    if is_averaged { law.without_lambda().unwrap_or(law) } else { law }
 }
 
 impl<T: Float> Solids<T> for Groups<T> {
@@ -232,6 +239,10 @@ impl<T: Float> Solids<T> for Groups<T> {
 
     fn points_per_element(&self) -> usize {
         self.points_per_element
+    }
+
+    fn moduli_of(&self, material: usize) -> [f64; 2] {
+        self.groups[material].moduli
     }
 
     fn is_in_plane_stress(&self) -> bool {

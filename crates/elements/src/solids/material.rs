@@ -16,6 +16,8 @@ pub(super) struct Solid<T: Float> {
     /// The same in wide registers, on processors that have them.
     pub(super) fast: Option<SolidLaws<T::Fast>>,
     pub(super) elements: AnyElements<T>,
+    /// Shear modulus and bulk modulus of the material at small strain, Pa; its law here has a smaller one where the volume is averaged.
+    pub(super) moduli: [f64; 2],
     /// Number of each quadrature point in the mesh, those of the first element first; empty where the group is the whole mesh in its order.
     pub(super) numbers: Vec<usize>,
 }

@@ -91,6 +91,9 @@ pub trait Solids<T: Float>: Send + Sync {
     /// Number of quadrature points of an element.
     fn points_per_element(&self) -> usize;
 
+    /// Shear modulus and bulk modulus of a material at small strain, Pa.
+    fn moduli_of(&self, material: usize) -> [f64; 2];
+
     /// Returns true if no stress acts across a flat body.
     fn is_in_plane_stress(&self) -> bool;
 
@@ -126,13 +129,6 @@ impl<T: Float> dyn Solids<T> + '_ {
         self.laws().all(|law| law.allows_inversion())
     }
 
-    /// Cauchy stress of each element of the mesh, Pa: the mean of its quadrature points.
-    pub fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
-        let at_points = self.cauchy_stresses_at_points(u);
-        let mean = |points: &[Matrix3<f64>]| points.iter().sum::<Matrix3<f64>>() / points.len() as f64;
-        at_points.chunks_exact(self.points_per_element()).map(mean).collect()
-    }
-
     /// The number of the material of each element of the mesh.
     pub fn material_of_elements(&self) -> Vec<usize> {
         let mut material_of = vec![0; self.count() / self.points_per_element()];
@@ -160,7 +156,7 @@ impl<T: Float> dyn Solids<T> + '_ {
 
     /// Shear modulus and bulk modulus of each material at small strain, Pa; in plane stress those of its plane.
     pub fn moduli(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.laws().map(|law| law.moduli())
+        (0..self.materials()).map(|material| self.moduli_of(material))
     }
 }
 

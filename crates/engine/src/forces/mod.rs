@@ -1,5 +1,6 @@
 //! Forces on the body beside its own elasticity: the trait [`Potential`], and one file for each force.
 
+mod averaged_volume;
 mod central_gravity;
 pub mod contact;
 pub mod dead_load;
@@ -20,7 +21,7 @@ pub use energy::Energy;
 use fem_elements::Real;
 use fem_elements::sparse::Pattern;
 pub use hessian_kind::HessianKind;
-pub use potential::{AddBlock, Barrier, Damped, Follower, Lagged, Moment, Potential};
+pub use potential::{AddBlock, Barrier, Damped, Follower, Lagged, Moment, Potential, Volume};
 
 /// A kind of force, which is built if the scene asks for it.
 pub struct Kind<T: Real> {
@@ -36,9 +37,14 @@ pub struct Kind<T: Real> {
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
 /// Every force that a scene can ask for; `[drag]` and the user's interaction are [`DragSprings`].
-pub fn kinds<T: Real>() -> [Kind<T>; 7] {
+pub fn kinds<T: Real>() -> [Kind<T>; 8] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
+        Kind {
+            name: averaged_volume::NAME,
+            tables: "[material] with volumetric = \"averaged\"",
+            build: averaged_volume::build,
+        },
         Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
         Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },

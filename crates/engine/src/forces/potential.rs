@@ -1,6 +1,7 @@
 //! The trait behind which every force stands, and the traits that it can opt into.
 
 use fem_model::LoadCurve;
+use nalgebra::Matrix3;
 
 use super::spring::Spring;
 use super::{Energy, HessianKind};
@@ -13,7 +14,8 @@ pub type AddBlock<'a, T> = dyn FnMut(usize, usize, Block<T, 3>) + 'a;
 /// A force on the body: minus the gradient of an energy that depends on the displacements and the time.
 ///
 /// A new one gives its value, gradient and Hessian. A method has a default only if that follows from these three, if it costs accuracy or
-/// time at most, or if it says that the potential has no such facet: [`Barrier`], [`Lagged`], [`Damped`], [`Follower`].
+/// time at most, or if it says that the potential has no such facet: [`Volume`], [`Barrier`], [`Lagged`], [`Damped`],
+/// [`Follower`].
 ///
 /// Nodes have the engine's numbers ([`Numbering`](crate::numbering::Numbering)). `u` are the displacements of all nodes, m.
 pub trait Potential<T: Real>: Send + Sync {
@@ -109,6 +111,11 @@ pub trait Potential<T: Real>: Send + Sync {
         &[]
     }
 
+    /// Itself, if it is the energy of the volume of the elements.
+    fn volume(&self) -> Option<&dyn Volume<T>> {
+        None
+    }
+
     /// Itself, if it is infinite beyond a limit.
     fn barrier(&self) -> Option<&dyn Barrier<T>> {
         None
@@ -166,6 +173,12 @@ pub trait Damped<T: Real> {
     fn add_damping_matrix(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]);
 }
 
+/// An energy of the volume of elements that is no part of their laws.
+pub trait Volume<T: Real> {
+    /// Adds its Cauchy stresses at the quadrature points, Pa: those of the mesh's first element, then those of the next.
+    fn add_stresses(&self, u: &[[T; 3]], stresses: &mut [Matrix3<f64>]);
+}
+
 /// A follower load: a force that turns with the body and need not have an energy. Implicit methods keep it fixed while Newton's method
 /// runs, and evaluate it again until it no longer changes.
 pub trait Follower<T: Real> {
@@ -178,9 +191,9 @@ pub trait Follower<T: Real> {
 
 /// Properties of a force that follow from its facets.
 impl<T: Real> dyn Potential<T> + '_ {
-    /// Returns true for a force of springs between the nodes of the body.
+    /// Returns true for a force that is part of the body's own elasticity: of springs between its nodes, or of the volume of its elements.
     pub fn is_internal(&self) -> bool {
-        !self.springs().is_empty()
+        !self.springs().is_empty() || self.volume().is_some()
     }
 
     /// Returns true for the forces of obstacles, which are evaluated at the end of a step: barriers, and friction on them.

@@ -45,6 +45,11 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
             ),
         ),
         (
+            method.integrator.is_iterated() && body.averages_volume(),
+            "material.volumetric",
+            format!("is \"averaged\", which time.integrator = \"{name}\" does not know; remove it, or use implicit_euler"),
+        ),
+        (
             follows && moved.is_some(),
             "static.arc_length",
             format!(

@@ -82,7 +82,7 @@ macro_rules! compiled {
             }
 
             fn stresses_at_points(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>> {
-                simulator.system.elements.cauchy_stresses_at_points(&simulator.state.u)
+                simulator.system.stresses_at_points(&simulator.state.u)
             }
 
             fn critical_time_step(simulator: &Simulator<Self>) -> Option<f64> {

@@ -6,6 +6,7 @@
 mod adaptive;
 mod affine;
 mod arc_length;
+mod averaged_volume;
 mod balance;
 mod bars;
 mod cantilever;

@@ -1,7 +1,7 @@
 //! `[material]`: the constitutive law by its name, its parameters, and the density.
 
 use fem_model::numbers::{check_positive, problem};
-use fem_model::{Law, LawFacts, Material, PlaneState, Refusal, Selector};
+use fem_model::{Law, LawFacts, Material, PlaneState, Refusal, Selector, Volumetric};
 
 use super::selector::of_keys;
 use super::{BoxTable, On, SphereTable};
@@ -27,13 +27,15 @@ macro_rules! material {
             pub model: String,
             /// Density, kg/m³: mass per undeformed volume; positive.
             pub density: f64,
+            /// Where the energy of the volume is evaluated. Default: `"standard"`.
+            pub volumetric: Option<Volumetric>,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
 
         impl MaterialsTable {
             /// The material without its place.
             pub fn material(&self) -> MaterialTable {
-                MaterialTable { model: self.model.clone(), density: self.density, thickness: None, plane: None, $($name: self.$name,)* }
+                MaterialTable { model: self.model.clone(), density: self.density, thickness: None, plane: None, volumetric: self.volumetric, $($name: self.$name,)* }
             }
         }
 
@@ -50,6 +52,8 @@ macro_rules! material {
             pub thickness: Option<f64>,
             /// State of a flat body across its plane. Engine only. Default: `"strain"`.
             pub plane: Option<PlaneState>,
+            /// Where the energy of the volume is evaluated. Engine only. Default: `"standard"`.
+            pub volumetric: Option<Volumetric>,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
 
@@ -77,7 +81,12 @@ impl MaterialTable {
     pub fn value(&self) -> Material {
         let given = |name: &str| self.parameters().find(|(own, _)| *own == name).map(|(_, value)| value);
         let law = (Law::named(&self.model).unwrap_or(Law::SPRINGS).of)(&given);
-        Material { law, density: self.density, plane: self.plane.unwrap_or_default() }
+        Material {
+            law,
+            density: self.density,
+            plane: self.plane.unwrap_or_default(),
+            volumetric: self.volumetric.unwrap_or_default(),
+        }
     }
 
     /// Returns true if every edge of the mesh is a spring, and no element is elastic.

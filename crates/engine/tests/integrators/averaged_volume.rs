@@ -1,0 +1,277 @@
+//! The energy of the volume averaged over patches: its derivatives, affine states, and what it is for, bodies that hardly change their volume.
+
+use std::path::Path;
+
+use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
+use fem_engine::forces::{HessianKind, Moment};
+use fem_engine::simulator::double::{self, System};
+use fem_engine::solvers::SolverChoice;
+use fem_mesh::{Pattern, rectangle_mesh};
+use fem_model::simulation::Simulation;
+use fem_model::{Axis, Body, BodyMesh, Integrator, Law, Material, Method, NeoHookean, Selector, Volumetric};
+
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::flat::{affine, flat};
+use crate::{SECOND_ORDER, block, build, distance, of_law, run, scene, soft, try_build};
+
+/// The laws that have an energy of the volume.
+fn laws() -> impl Iterator<Item = &'static str> {
+    Law::FACTS.iter().filter(|facts| facts.volume.is_some()).map(|facts| facts.name)
+}
+
+fn averaged(text: &str) -> String {
+    text.replace("density = 1000.0", "density = 1000.0\nvolumetric = \"averaged\"")
+}
+
+fn quadratic(text: &str) -> String {
+    text.replace(" }\n[material]", " }\norder = 2\n[material]")
+}
+
+/// A scene with each kind of element.
+fn with_elements(text: &str) -> [String; 4] {
+    [text.to_owned(), quadratic(text), flat(text), quadratic(&flat(text))]
+}
+
+fn system(text: &str) -> System {
+    let body = fem_scene::body(&scene(text), Path::new("no data")).unwrap_or_else(|error| panic!("{error}"));
+    double::system(body, SolverChoice::Cholesky)
+}
+
+/// A field of the nodes that is not affine, in the plane of a flat body, m.
+fn field(system: &System, size: f64, phase: f64) -> Vec<[f64; 3]> {
+    let is_flat = system.shape.mesh.dimension() == 2;
+    let entry = |node: usize, i: usize| size * ((node * 3 + i) as f64 * 1.7 + phase).sin();
+    (0..system.nodes()).map(|node| [0, 1, 2].map(|i| if is_flat && i == 2 { 0.0 } else { entry(node, i) })).collect()
+}
+
+fn dot(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
+}
+
+fn sum(a: &[[f64; 3]], factor: f64, b: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    a.iter().zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + factor * b[i])).collect()
+}
+
+#[test]
+fn forces_and_stiffness_are_the_derivatives_of_the_energy_with_every_element() {
+    for text in laws().flat_map(|model| with_elements(&averaged(&block(model, "")))) {
+        let system = system(&text);
+        let (u, d, moment, h) = (field(&system, 0.04, 0.3), field(&system, 1.0, 2.0), Moment::at(0.0), 1e-6);
+        let gradient = |u: &[[f64; 3]]| {
+            let mut gradient = vec![[0.0; 3]; system.nodes()];
+            double::gradient(&system, u, moment, &mut gradient);
+            gradient
+        };
+        let [ahead, back] = [h, -h].map(|h| sum(&u, h, &d));
+        let [above, below] = [&ahead, &back].map(|u| double::potential(&system, u, moment).value);
+        let (slope, by_differences) = (dot(&gradient(&u), &d), (above - below) / (2.0 * h));
+        assert!((slope - by_differences).abs() < 1e-6 * slope.abs(), "{slope} {by_differences}\n{text}");
+        let mut product = vec![[0.0; 3]; system.nodes()];
+        double::add_stiffness_times(&system, &u, &d, &mut product);
+        let by_differences = sum(&gradient(&ahead), -1.0, &gradient(&back));
+        let largest = product.as_flattened().iter().fold(0.0, |largest, x| f64::max(largest, x.abs()));
+        for (x, y) in product.as_flattened().iter().zip(by_differences.as_flattened()) {
+            assert!((x - y / (2.0 * h)).abs() < 1e-6 * largest, "{x} {}\n{text}", y / (2.0 * h));
+        }
+        assert!((dot(&matrix_times(&system, &u, &d), &d) - dot(&product, &d)).abs() < 1e-10 * largest, "{text}");
+    }
+}
+
+/// The assembled stiffness times a vector.
+fn matrix_times(system: &System, u: &[[f64; 3]], d: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
+    double::add_stiffness(system, u, &mut values);
+    let mut product = vec![[0.0; 3]; system.nodes()];
+    for row in 0..system.pattern.rows() {
+        for place in system.pattern.row(row) {
+            let column = system.pattern.columns[place] as usize;
+            for i in 0..3 {
+                for j in 0..3 {
+                    product[row][i] += values[place][i][j] * d[column][j];
+                    if column < row {
+                        product[column][j] += values[place][i][j] * d[row][i];
+                    }
+                }
+            }
+        }
+    }
+    product
+}
+
+#[test]
+fn projected_stiffness_has_no_negative_energy_where_the_exact_one_has() {
+    let text = averaged(&of_law("hencky", &soft("static", 1.0, "")));
+    let mut is_indefinite = false;
+    for text in with_elements(&text) {
+        let system = system(&text);
+        let u = field(&system, 0.12, 0.3);
+        for phase in (0..40).map(f64::from) {
+            let d = field(&system, 1.0, phase);
+            let [exact, projected] = [HessianKind::Exact, HessianKind::Projected].map(|kind| {
+                let mut energy = 0.0;
+                for (force, _) in system.forces.active() {
+                    force.hessian(&u, Moment::at(0.0), kind, &mut |row, column, block| {
+                        for i in 0..3 {
+                            energy += d[row][i] * (0..3).map(|j| block[i][j] * d[column][j]).sum::<f64>();
+                        }
+                    });
+                }
+                energy
+            });
+            assert!(projected >= 0.0 && projected >= exact - 1e-9 * projected, "{exact} {projected}\n{text}");
+            is_indefinite |= exact < 0.0;
+        }
+    }
+    assert!(is_indefinite, "no state of the test needs a projection");
+}
+
+#[test]
+fn a_free_body_has_no_motion_without_energy_but_rigid_ones() {
+    for text in with_elements(&averaged(&soft("static", 1.0, "")).replace("size = [2, 1, 1]", "size = [1, 1, 1]")) {
+        let text = text.replace("[2, 1]", "[1, 1]").replace("cells_per_unit = 3", "cells_per_unit = 1");
+        let system = system(&text);
+        let (nodes, dimension) = (system.nodes(), system.shape.mesh.dimension());
+        let u = vec![[0.0; 3]; nodes];
+        let K = DMatrix::from_columns(&Vec::from_iter((0..dimension * nodes).map(|k| {
+            let mut unit = u.clone();
+            unit[k / dimension][k % dimension] = 1.0;
+            let product = matrix_times(&system, &u, &unit);
+            DVector::from_fn(dimension * nodes, |row, _| product[row / dimension][row % dimension])
+        })));
+        let values = K.symmetric_eigenvalues();
+        let without_energy = values.iter().filter(|value| **value < 1e-4 * values.max()).count();
+        assert_eq!(without_energy, if dimension == 3 { 6 } else { 3 }, "{values}\n{text}");
+    }
+}
+
+#[test]
+fn an_affine_state_has_the_energy_and_the_stress_of_elements_that_do_not_average() {
+    let G = [[0.08, 0.05], [-0.02, -0.03]];
+    let linear = rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap();
+    let mesh = BodyMesh::flat(linear.clone(), 0.3).of_order(2).unwrap().mesh::<6>().unwrap();
+    for model in laws() {
+        let texts = [flat(&block(model, &affine(&linear, G))), quadratic(&flat(&block(model, &affine(&mesh, G))))];
+        for text in texts {
+            let [standard, patches] = [text.clone(), averaged(&text)].map(|text| {
+                let mut simulation = build(&text);
+                run(&mut *simulation, 1);
+                simulation
+            });
+            assert!(distance(&standard.positions(), &patches.positions()) < 1e-11, "{text}");
+            let [found, expected] = [&patches, &standard].map(|simulation| simulation.energies().potential);
+            assert!((found - expected).abs() < 1e-11 * expected, "{found} {expected}\n{text}");
+            let [found, expected] = [&patches, &standard].map(|simulation| simulation.stresses_at_points()[7]);
+            assert!((found - expected).amax() < 1e-9 * expected.amax(), "{found} {expected}\n{text}");
+        }
+    }
+}
+
+/// Tip displacement over Timoshenko's of a cantilever of 8 × 1 × 1 m under a load at its end.
+fn cantilever(order: usize, cells: usize, poisson: f64, volumetric: &str) -> f64 {
+    let text = format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [8, 1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}\norder = {order}\n[material]\n\
+         model = \"linear\"\nyoung = 1e6\npoisson = {poisson}\ndensity = 1000.0\nvolumetric = \"{volumetric}\"\n[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n\
+         [[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\nforce_per_area = [0, 0, -50]\n[time]\nintegrator = \"static\"\nsteps = 1\n"
+    );
+    let scene = scene(&text);
+    let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
+    let expected = expected_tip_displacement(&body, &scene.method()).unwrap();
+    let mut simulation = fem_engine::simulator::build(body, &scene.method()).unwrap();
+    run(&mut *simulation, 1);
+    tip_displacement(&*simulation).z / expected.z
+}
+
+#[test]
+fn a_nearly_incompressible_cantilever_no_longer_locks() {
+    let [locked, freed] = ["standard", "averaged"].map(|volumetric| cantilever(1, 3, 0.4999, volumetric));
+    assert!(locked < 0.03 && freed > 0.75, "{locked} {freed}");
+    let [standard, freed] = ["standard", "averaged"].map(|volumetric| cantilever(2, 3, 0.4999, volumetric));
+    assert!(standard < 0.96 && (0.98..1.0).contains(&freed), "{standard} {freed}");
+    let [less, more] = [0.49, 0.49999].map(|poisson| cantilever(1, 3, poisson, "averaged"));
+    assert!((less - more).abs() < 0.01, "{less} {more}");
+}
+
+/// The vertical displacement of the upper corner of Cook's membrane, plane strain, κ/μ = 5000, m: J. C. Simo and F. Armero, Geometrically Non-linear
+/// Enhanced Strain Mixed Methods and the Method of Incompatible Modes (1992).
+fn cook(order: usize, pattern: Pattern, volumetric: Volumetric) -> f64 {
+    let mut mesh = rectangle_mesh([1.0, 1.0], 16, pattern).unwrap();
+    for x in &mut mesh.vertices {
+        let [s, t] = [x.x, x.y];
+        *x = Vector3::new(48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s), 0.0);
+    }
+    let corner = (0..mesh.vertices.len()).max_by(|a, b| mesh.vertices[*a].y.total_cmp(&mesh.vertices[*b].y)).unwrap();
+    let law = Law::NeoHookean(NeoHookean::Moduli { C: 40.0969, D: 200_471.6 });
+    let material = Material { volumetric, ..Material::new(law, 1.0) };
+    let body = Body::new(BodyMesh::flat(mesh, 1.0).of_order(order).unwrap(), material).unwrap();
+    let body = body.fix(&Selector::least(Axis::X)).unwrap();
+    let body = body.traction(&Selector::most(Axis::X), [0.0, 6.25, 0.0]).unwrap();
+    let method = Method { load_steps: 8, ..Method::new(Integrator::Static, 1.0) };
+    let mut simulation = fem_engine::simulator::build(body, &method).unwrap();
+    run(&mut *simulation, 8);
+    simulation.positions()[3 * corner + 1] - 60.0
+}
+
+#[test]
+fn cooks_membrane_reaches_its_published_deflection_whichever_way_the_cells_are_cut() {
+    let reference = 6.93;
+    for pattern in [Pattern::Kuhn, Pattern::Alternating] {
+        let quadratic = cook(2, pattern, Volumetric::Averaged);
+        assert!((quadratic - reference).abs() < 0.01 * reference, "{pattern:?}: {quadratic}");
+        let linear = cook(1, pattern, Volumetric::Averaged);
+        assert!((linear - reference).abs() < 0.05 * reference, "{pattern:?}: {linear}");
+    }
+    let locked = cook(1, Pattern::Kuhn, Volumetric::Standard);
+    assert!(locked < 0.6 * reference, "{locked}");
+}
+
+#[test]
+fn bodies_that_average_keep_their_energy_and_their_angular_momentum_in_motion() {
+    let moving = "[[initial_velocity]]\nvelocity = [0, 0, 0]\nangular = { axis = [0, 0, 1], rate = 2.0 }\n";
+    for integrator in SECOND_ORDER.into_iter().chain(["verlet", "implicit_euler", "linearly_implicit_euler"]) {
+        let text = averaged(&of_law("neo_hookean", &soft(integrator, 2e-3, moving)));
+        for text in [text.clone(), quadratic(&text)] {
+            let mut simulation = build(&text);
+            let (start, spin) = (simulation.energies().total(), angular_momentum(&*simulation));
+            run(&mut *simulation, 50);
+            let (energy, now) = (simulation.energies().total(), angular_momentum(&*simulation));
+            assert!(energy < start * (1.0 + 1e-3), "{integrator}: {start} {energy}");
+            assert!((now - spin).abs() < 2e-2 * spin.abs(), "{integrator}: {spin} {now}");
+            assert!(simulation.unexplained_energy().is_none(), "{integrator}");
+        }
+    }
+}
+
+/// About the z axis, kg m²/s, with a mass that is the same at every node.
+fn angular_momentum(simulation: &dyn Simulation) -> f64 {
+    let (q, v) = (simulation.positions(), simulation.velocities());
+    let nodes = q.len() / 3;
+    let middle = (0..nodes).map(|node| q.fixed_rows::<3>(3 * node).into_owned()).sum::<Vector3<f64>>() / nodes as f64;
+    (0..nodes)
+        .map(|node| (q.fixed_rows::<3>(3 * node) - middle).cross(&v.fixed_rows::<3>(3 * node).into_owned()).z)
+        .sum()
+}
+
+#[test]
+fn laws_without_an_energy_of_the_volume_and_methods_in_sweeps_are_refused_with_the_remedy() {
+    for model in Law::FACTS.iter().filter(|facts| facts.volume.is_none()).map(|facts| facts.name) {
+        let message = try_build_error(&averaged(&block(model, "")));
+        assert!(message.contains("material.volumetric is \"averaged\", and `"), "{message}");
+        assert!(message.contains("take linear, neo_hookean, hencky"), "{message}");
+    }
+    for integrator in Integrator::ALL.into_iter().filter(|integrator| integrator.is_iterated()) {
+        let message = try_build_error(&averaged(&soft(integrator.name(), 1e-3, "")));
+        assert!(message.contains("material.volumetric") && message.contains("implicit_euler"), "{message}");
+    }
+    let sheet = averaged(&flat(&block("linear", ""))).replace("thickness", "plane = \"stress\"\nthickness");
+    let message = try_build_error(&sheet);
+    assert!(message.contains("in plane stress"), "{message}");
+    let course = averaged(&soft("implicit_euler", 1e-3, "")).replace("\"engine\"", "\"course\"");
+    let message = try_build_error(&course);
+    assert!(message.contains("belongs to the engine"), "{message}");
+}
+
+fn try_build_error(text: &str) -> String {
+    let parsed = fem_scene::parse(text, Path::new("folder/name.toml")).map(|_| ());
+    parsed.and_then(|()| try_build(text).map(|_| ())).expect_err(text).to_string()
+}
