@@ -28,7 +28,7 @@ struct Answer {
 
 impl Answer {
     fn read(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/agreement").join(name);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("agreement").join(name);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let answer: Self = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         for key in ["program", "version", "command", "date"] {
@@ -39,7 +39,7 @@ impl Answer {
 }
 
 fn data() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../data")
 }
 
 /// The scene after so many steps, all of which have converged.

@@ -14,7 +14,7 @@ use fem_scene::{Override, body, load_with};
 use nalgebra::DVector;
 
 fn data() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../data")
 }
 
 /// Newton's method to its rounding error.

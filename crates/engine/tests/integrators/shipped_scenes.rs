@@ -9,7 +9,7 @@ use fem_scene::{Pipeline, Scene, body, load, names};
 
 /// The repository's `data`.
 pub fn data() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data")
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../data")
 }
 
 #[test]

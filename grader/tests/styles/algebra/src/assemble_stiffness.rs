@@ -32,12 +32,19 @@ fn positive_part(mut H: SMatrix<f64, 12, 12>) -> SMatrix<f64, 12, 12> {
             }
             let angle = 0.5 * (2.0 * H[(p, r)]).atan2(H[(p, p)] - H[(r, r)]);
             let (sin, cos) = angle.sin_cos();
-            let mut turn = SMatrix::<f64, 12, 12>::identity();
-            (turn[(p, p)], turn[(r, r)], turn[(p, r)], turn[(r, p)]) = (cos, cos, -sin, sin);
-            H = turn.transpose() * H * turn;
-            vectors *= turn;
+            for k in 0..12 {
+                (H[(k, p)], H[(k, r)]) = turned(H[(k, p)], H[(k, r)], sin, cos);
+                (vectors[(k, p)], vectors[(k, r)]) = turned(vectors[(k, p)], vectors[(k, r)], sin, cos);
+            }
+            for k in 0..12 {
+                (H[(p, k)], H[(r, k)]) = turned(H[(p, k)], H[(r, k)], sin, cos);
+            }
         }
     }
     let kept = SMatrix::from_diagonal(&H.diagonal().map(|value| if value > 0.0 { value } else { 0.0 }));
     vectors * kept * vectors.transpose()
+}
+
+fn turned(a: f64, b: f64, sin: f64, cos: f64) -> (f64, f64) {
+    (cos * a + sin * b, cos * b - sin * a)
 }
