@@ -19,13 +19,14 @@ pub fn candidates<'a, S: Copy + 'static>(right: S, switches: &'static [Switch<S>
             Candidate::new(name, sentence, move |trial, _| run(&settings, trial))
         })
         .collect();
-    for (index, first) in switches.iter().enumerate() {
-        for second in &switches[index + 1..] {
+    let beside: Vec<String> = switches.iter().map(|(_, sentence, _)| beside_another(sentence)).collect();
+    for (i, first) in switches.iter().enumerate() {
+        for (j, second) in switches.iter().enumerate().skip(i + 1) {
             let mut settings = right;
             (first.2)(&mut settings);
             (second.2)(&mut settings);
             let name = format!("{} and {}", first.0, second.0);
-            let sentence = format!("{} {}", beside_another(first.1), beside_another(second.1));
+            let sentence = format!("{} {}", beside[i], beside[j]);
             all.push(Candidate::new(name, sentence, move |trial, _| run(&settings, trial)));
         }
     }

@@ -10,14 +10,22 @@ use nalgebra::{Matrix3, Vector3};
 use crate::shipped::data;
 use crate::stuffing::{joined, sphere, torus};
 
-/// The largest of the smallest barycentric coordinates of a point over all elements: not negative inside the mesh.
-fn depth(mesh: &TetrahedralMesh, point: &Vector3<f64>) -> f64 {
-    let coordinate = |element: &[usize; 4]| {
+/// The first vertex of each element, and the matrix that makes barycentric coordinates of the way from there.
+fn coordinates(mesh: &TetrahedralMesh) -> Vec<(Vector3<f64>, Matrix3<f64>)> {
+    let of_element = |element: &[usize; 4]| {
         let [a, b, c, d] = element.map(|i| mesh.vertices[i]);
-        let weights = Matrix3::from_columns(&[b - a, c - a, d - a]).try_inverse().unwrap() * (point - a);
+        (a, Matrix3::from_columns(&[b - a, c - a, d - a]).try_inverse().unwrap())
+    };
+    mesh.elements.iter().map(of_element).collect()
+}
+
+/// The largest of the smallest barycentric coordinates of a point over all elements: not negative inside the mesh.
+fn depth(elements: &[(Vector3<f64>, Matrix3<f64>)], point: &Vector3<f64>) -> f64 {
+    let smallest = |(a, inverse): &(Vector3<f64>, Matrix3<f64>)| {
+        let weights = inverse * (point - a);
         weights.min().min(1.0 - weights.sum())
     };
-    mesh.elements.iter().map(coordinate).fold(f64::NEG_INFINITY, f64::max)
+    elements.iter().map(smallest).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Panics unless the mesh is valid, has its bounds, and contains the surface.
@@ -29,6 +37,7 @@ fn encloses(mesh: &TetrahedralMesh, surface: &SurfaceMesh) {
     let found = surface_quality(&outer);
     assert!(found.is_closed() && found.is_manifold(), "{found}");
     // Skinning weights of every vertex, and of the centre of every triangle.
+    let elements = coordinates(mesh);
     let centre = |element: &[usize; 3]| element.iter().map(|&i| surface.vertices[i]).sum::<Vector3<f64>>() / 3.0;
     for point in surface
         .vertices
@@ -37,7 +46,7 @@ fn encloses(mesh: &TetrahedralMesh, surface: &SurfaceMesh) {
         .chain(surface.elements.iter().map(centre))
         .step_by(1 + surface.vertices.len() / 500)
     {
-        assert!(depth(mesh, &point) >= -1e-12, "{point} is not inside");
+        assert!(depth(&elements, &point) >= -1e-12, "{point} is not inside");
     }
     // No triangle crosses the boundary: together they cross no more often than each alone.
     let both = joined(outer.clone(), surface.clone());

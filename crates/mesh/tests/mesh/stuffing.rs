@@ -120,7 +120,7 @@ fn a_shell_between_two_spheres_keeps_its_cavity() {
 #[test]
 fn a_graded_mesh_has_the_boundary_of_the_uniform_one_and_fewer_elements() {
     let surface = sphere(5, Vector3::zeros());
-    let uniform = stuff(&surface, 0.06).unwrap();
+    let uniform = stuff(&surface, 0.08).unwrap();
     let places = |mesh: &TetrahedralMesh| {
         let place = |face: [usize; 3]| {
             let mut places: [[u64; 3]; 3] = face.map(|i| mesh.vertices[i].map(f64::to_bits).into());
@@ -130,12 +130,12 @@ fn a_graded_mesh_has_the_boundary_of_the_uniform_one_and_fewer_elements() {
         boundary(mesh).into_iter().map(place).collect::<BTreeSet<_>>()
     };
     for doublings in [1, 3, 60] {
-        let graded = stuff_graded(&surface, 0.06, doublings, &|_| ()).unwrap();
+        let graded = stuff_graded(&surface, 0.08, doublings, &|_| ()).unwrap();
         is_sound(&graded);
         assert!(places(&graded) == places(&uniform), "{doublings}");
         assert!(graded.elements.len() * 3 < uniform.elements.len() * 2, "{doublings}: {}", graded.elements.len());
     }
-    assert_eq!(stuff_graded(&surface, 0.06, 0, &|_| ()).unwrap(), uniform);
+    assert_eq!(stuff_graded(&surface, 0.08, 0, &|_| ()).unwrap(), uniform);
 }
 
 #[test]

@@ -8,14 +8,19 @@ use crate::reference::trial::{Input, Observed, Trial};
 
 type Phi = Vector4<f64>;
 
+/// The distances of a display vertex from all elements, computed where they are asked for.
+pub struct Far<'a> {
+    elements: &'a [[Vector3<f64>; 4]],
+    x: &'a Vector3<f64>,
+}
+
 /// The decisions for a display vertex.
 #[derive(Clone, Copy)]
 pub struct Settings {
-    /// The element that a vertex follows, from the shape functions of all elements there and the distances of their centroids and of
-    /// their nearest vertices.
-    element: fn(&[Phi], &[[f64; 2]]) -> Option<usize>,
+    /// The element that a vertex follows, from the shape functions of all elements there and their distances.
+    element: fn(&[Phi], &Far) -> Option<usize>,
     /// The same for a vertex that no element holds.
-    outside: fn(&[Phi], &[[f64; 2]]) -> Option<usize>,
+    outside: fn(&[Phi], &Far) -> Option<usize>,
     weights: fn(Phi) -> Phi,
     columns: fn([usize; 4]) -> [usize; 4],
     shares: Shares,
@@ -205,8 +210,9 @@ fn last_like(phis: &[Phi], element: usize) -> usize {
 }
 
 /// The element with the nearest centroid (0) or vertex (1).
-fn nearest(far: &[[f64; 2]], to: usize) -> Option<usize> {
-    (0..far.len()).min_by(|&a, &b| far[a][to].total_cmp(&far[b][to]))
+fn nearest(far: &Far, to: usize) -> Option<usize> {
+    let distances: Vec<_> = far.elements.iter().map(|X| distances(X, far.x)[to]).collect();
+    (0..distances.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b]))
 }
 
 /// Distances of a point from an element's centroid and from its nearest vertex.
@@ -219,6 +225,7 @@ fn distances(X: &[Vector3<f64>; 4], x: &Vector3<f64>) -> [f64; 2] {
 pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
     let Input::Skinning { V, T, V_skin } = &trial.input else { return None };
     let mut numbers = vec![0.0; V_skin.len() * V.len()];
+    let elements: Vec<_> = T.iter().map(|t| t.map(|i| V[i])).collect();
     for (row, x) in V_skin.iter().enumerate() {
         let phis: Vec<_> = T.iter().map(|element| solved::phi_linear_tetrahedron(V, element, x)).collect();
         let mut put = |element: usize, share: f64| {
@@ -236,9 +243,8 @@ pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
             Shares::All if !holding.is_empty() => holding.iter().for_each(|&e| put(e, 1.0)),
             Shares::Mean if !holding.is_empty() => holding.iter().for_each(|&e| put(e, 1.0 / holding.len() as f64)),
             _ => {
-                let far: Vec<_> = T.iter().map(|t| distances(&t.map(|i| V[i]), x)).collect();
                 let choose = if holding.is_empty() { s.outside } else { s.element };
-                if let Some(element) = choose(&phis, &far) {
+                if let Some(element) = choose(&phis, &Far { elements: &elements, x }) {
                     put(element, 1.0);
                 }
             }
