@@ -21,6 +21,19 @@ pub struct Dot {
     pub is_best: bool,
 }
 
+impl Dot {
+    /// A point with the text that it shows under the pointer.
+    pub fn new(x: f64, y: f64, title: impl Into<String>) -> Self {
+        Self { x, y, title: title.into(), ..Self::default() }
+    }
+}
+
+impl From<(f64, f64)> for Dot {
+    fn from((x, y): (f64, f64)) -> Self {
+        Self { x, y, ..Self::default() }
+    }
+}
+
 /// Points of one kind.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
@@ -38,6 +51,23 @@ pub struct Series {
     pub is_hollow: bool,
     /// Points in the order of the line.
     pub dots: Vec<Dot>,
+}
+
+impl Series {
+    /// A smooth curve: a line without points.
+    pub fn line(name: impl Into<String>, colour: usize, dots: impl IntoIterator<Item = impl Into<Dot>>) -> Self {
+        let dots = dots.into_iter().map(Into::into).collect();
+        Self { name: name.into(), colour, is_joined: true, dots, ..Self::default() }
+    }
+
+    /// Points of a shape, joined by a line.
+    pub fn joined(
+        name: impl Into<String>,
+        (colour, shape): (usize, usize),
+        dots: impl IntoIterator<Item = impl Into<Dot>>,
+    ) -> Self {
+        Self { shape, has_dots: true, ..Self::line(name, colour, dots) }
+    }
 }
 
 /// A line to compare the series with.

@@ -1,12 +1,14 @@
 //! A finished drawing, for a page or as a file.
 
 use maud::{Markup, PreEscaped, html};
+use serde::{Deserialize, Serialize};
 
 use crate::svg::{Px, text};
 use crate::{COLOURS, STYLE};
 
 /// A finished drawing.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(from = "Stored", into = "Stored")]
 pub struct Picture {
     /// Width and height before scaling, pixels.
     pub(crate) size: (f64, f64),
@@ -16,6 +18,29 @@ pub struct Picture {
     pub(crate) inner: Markup,
     /// Name and mark of each entry of the legend.
     pub(crate) legend: Vec<(String, Markup)>,
+}
+
+/// A drawing as it is stored: its elements as text.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    size: (f64, f64),
+    label: String,
+    inner: String,
+    legend: Vec<(String, String)>,
+}
+
+impl From<Picture> for Stored {
+    fn from(Picture { size, label, inner, legend }: Picture) -> Self {
+        let legend = legend.into_iter().map(|(name, mark)| (name, mark.into_string())).collect();
+        Self { size, label, inner: inner.into_string(), legend }
+    }
+}
+
+impl From<Stored> for Picture {
+    fn from(Stored { size, label, inner, legend }: Stored) -> Self {
+        let legend = legend.into_iter().map(|(name, mark)| (name, PreEscaped(mark))).collect();
+        Self { size, label, inner: PreEscaped(inner), legend }
+    }
 }
 
 /// Columns of the legend of a file.

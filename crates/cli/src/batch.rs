@@ -25,7 +25,7 @@ pub fn run(course: &Course, scene: &Scene, arguments: &RunArguments) -> Result<(
     let mut batch = Batch::new(body.clone(), &scene.method(), scene.environment_values())
         .map_err(|refusal| End::unusable(scene.refused(refusal)))?;
     warn_of_long_steps(scene, &body)?;
-    let steps = build::steps(scene);
+    let steps = fem_scene::simulate::steps(scene);
     let signals = Signals::catch()?;
     let (bar, start) = (progress_bar(steps), Instant::now());
     let mut together = 1;

@@ -2,17 +2,14 @@
 
 use std::time::Instant;
 
+use fem_model::Body;
 use fem_model::simulation::Simulation;
-use fem_model::{Body, Integrator};
 use fem_scene::{Pipeline, Scene};
 use nalgebra::Vector3;
 
 use crate::course::Course;
 use crate::end::End;
 use crate::{engine, progress};
-
-/// Number of steps without a window, if neither the scene nor the arguments give one.
-const DEFAULT_STEPS: usize = 100;
 
 /// A simulation that is ready to start.
 pub struct Ready {
@@ -43,7 +40,7 @@ pub fn build(course: &Course, scene: &Scene) -> Result<Ready, End> {
     // Without gravity a cantilever bends downwards.
     let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
     let up = down.map_or(Vector3::y(), |down| -down);
-    Ok(Ready { simulation, seconds_setup, steps: steps(scene), up, expected_tip })
+    Ok(Ready { simulation, seconds_setup, steps: fem_scene::simulate::steps(scene), up, expected_tip })
 }
 
 /// Builds the simulation of a scene of the engine that a user has changed, on the shape of the former one if its mesh has not changed.
@@ -79,15 +76,6 @@ pub fn body(course: &Course, scene: &Scene) -> Result<Body, End> {
         );
     }
     Ok(body)
-}
-
-/// The scene's number of steps; by default that of its load steps if it is static.
-pub fn steps(scene: &Scene) -> usize {
-    let default = match scene.time.integrator {
-        Integrator::Static => scene.method().load_steps,
-        _ => DEFAULT_STEPS,
-    };
-    scene.time.steps.unwrap_or(default)
 }
 
 /// Warns of display vertices that the mesh does not enclose: their weights stretch them.

@@ -1,11 +1,11 @@
 //! Time integration methods.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::ContactTreatment;
 
 /// Time integration methods, as scene files and the command line spell them.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
     /// Explicit Euler, first order. Motions grow without damping at any step.
@@ -62,7 +62,7 @@ pub enum Family {
 }
 
 /// The properties of a method on which checks, switching, studies and pages rely.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facts {
     /// The name in scene files.
     pub name: &'static str,
@@ -72,6 +72,8 @@ pub struct Facts {
     pub family: Family,
     /// Order of convergence in the time step; `None` without time.
     pub order: Option<u32>,
+    /// Largest stable ω dt of an undamped vibration; 0 if every step makes it grow, `None` if none does.
+    pub stability_limit: Option<f64>,
     /// True if the method is symplectic: without damping its energy error stays bounded.
     pub is_symplectic: bool,
     /// Treatment of obstacles; `None` for a method that cannot keep a body outside.
@@ -85,6 +87,8 @@ pub const CONSISTENT_MASS: usize = 2000;
 impl Integrator {
     /// All methods, with what is known about them.
     pub const FACTS: [(Self, Facts); 17] = {
+        use std::f64::consts::SQRT_2;
+
         use ContactTreatment::{Barrier, Impulses, Projection};
         use Family::{Equilibrium, Explicit, Linearized, Newton, Rounds, Sweeps};
         const fn facts(
@@ -95,17 +99,28 @@ impl Integrator {
             is_symplectic: bool,
             contact: Option<ContactTreatment>,
         ) -> Facts {
-            Facts { name, label, family, order, is_symplectic, contact }
+            Facts { name, label, family, order, stability_limit: None, is_symplectic, contact }
+        }
+        /// Hairer, Lubich and Wanner, Geometric Numerical Integration (2006), ch. I; Hairer and Wanner, Solving Ordinary Differential
+        /// Equations II (1996), ch. IV.2.
+        const fn stable_below(limit: f64, facts: Facts) -> Facts {
+            Facts { stability_limit: Some(limit), ..facts }
         }
         [
-            (Self::ExplicitEuler, facts("explicit_euler", "explicit Euler", Explicit, Some(1), false, Some(Impulses))),
+            (
+                Self::ExplicitEuler,
+                stable_below(0.0, facts("explicit_euler", "explicit Euler", Explicit, Some(1), false, Some(Impulses))),
+            ),
             (
                 Self::SemiImplicitEuler,
-                facts("semi_implicit_euler", "semi-implicit Euler", Explicit, Some(1), true, Some(Impulses)),
+                stable_below(
+                    2.0,
+                    facts("semi_implicit_euler", "semi-implicit Euler", Explicit, Some(1), true, Some(Impulses)),
+                ),
             ),
-            (Self::Rk2, facts("rk2", "RK2", Explicit, Some(2), false, Some(Impulses))),
-            (Self::Rk4, facts("rk4", "RK4", Explicit, Some(4), false, Some(Impulses))),
-            (Self::Verlet, facts("verlet", "Verlet", Explicit, Some(2), true, Some(Impulses))),
+            (Self::Rk2, stable_below(0.0, facts("rk2", "RK2", Explicit, Some(2), false, Some(Impulses)))),
+            (Self::Rk4, stable_below(2.0 * SQRT_2, facts("rk4", "RK4", Explicit, Some(4), false, Some(Impulses)))),
+            (Self::Verlet, stable_below(2.0, facts("verlet", "Verlet", Explicit, Some(2), true, Some(Impulses)))),
             (
                 Self::LinearlyImplicitEuler,
                 facts("linearly_implicit_euler", "linearly implicit Euler", Linearized, Some(1), false, None),

@@ -13,6 +13,7 @@ mod pull;
 use std::sync::Arc;
 
 use nalgebra::{DVector, Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use fem_mesh::SurfaceMesh;
 
@@ -326,7 +327,7 @@ pub struct Reaction {
 }
 
 /// Numbers of operations so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs)] // the names are the documentation; they are the keys of the statistics file
 pub struct Counters {
     pub steps: usize,

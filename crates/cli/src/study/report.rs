@@ -3,15 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fem_model::simulation::Simulation;
 use fem_scene::Scene;
-use fem_study::experiments::write;
-use fem_study::linear;
-use fem_study::machine::Machine;
+use fem_study::linear::{self, LinearSolvers};
 use fem_study::report::{Report, first_files, report};
 use fem_study::studies::Settings;
-use indicatif::{ProgressBar, ProgressStyle};
 
+use super::Distribution;
 use super::sweep::Sweep;
 use crate::build;
 use crate::course::Course;
@@ -34,77 +31,40 @@ pub struct Arguments {
     /// Instead of the report, compare the convergence of the linear solvers, iteration by iteration, and write linear.html
     #[arg(long, conflicts_with = "sweep")]
     pub linear: bool,
+    #[command(flatten)]
+    pub distribution: Distribution,
 }
 
 /// Studies the scenes, writes the report, and prints the fastest method for each error.
-pub fn run(course: &Course, arguments: &Arguments) -> Result<(), End> {
-    let (folder, data) = (&arguments.out, course.data());
-    if folder.exists() && !folder.is_dir() {
-        return Err(End::unusable(format!("--out {}: is a file; give the name of a folder", folder.display())));
+pub fn run(course: &Course, arguments: &Arguments, merged: &[PathBuf]) -> Result<(), End> {
+    let Arguments { scenes: names, out, quick, sweep, linear, distribution } = arguments;
+    if !sweep.is_empty() {
+        return super::sweep::run(course, names, sweep, out.clone(), *distribution, merged);
     }
-    if !arguments.sweep.is_empty() {
-        return sweep(course, arguments);
-    }
-    let scenes = arguments.scenes.iter().map(|name| fem_scene::load(name, &data).map_err(End::unusable));
+    let data = course.data();
+    let scenes = names.iter().map(|name| fem_scene::load(name, &data).map_err(End::unusable));
     let scenes: Vec<Scene> = scenes.collect::<Result<_, _>>()?;
-    if arguments.linear {
-        return linear(course, &scenes, arguments);
+    if *linear {
+        let body = |scene: Scene| {
+            let body = build::body(course, &scene)?;
+            linear::check(&scene, &body).map_err(End::unusable)?;
+            Ok((scene, body))
+        };
+        let systems = scenes.into_iter().map(body).collect::<Result<_, End>>()?;
+        let study = LinearSolvers { systems, quick: *quick, names };
+        return super::end_of(course, &study, out, *distribution, merged);
     }
-    let bar = progress_bar();
-    let tell = |done: usize, all: usize, what: &str| show(&bar, done, all, what);
-    let factory = |scene: &Scene| -> Result<Box<dyn Simulation>, String> {
-        build::build(course, scene).map(|ready| ready.simulation).map_err(|end| end.message())
-    };
-    let settings = Settings { data, out: folder.clone(), is_quick: arguments.quick, factory: &factory, tell: &tell };
+    let bar = super::progress_bar();
+    let tell = |done: usize, all: usize, what: &str| super::show(&bar, done, all, what);
+    let factory = |scene: &Scene| super::simulation(course, scene);
+    let settings = Settings { data, out: out.clone(), is_quick: *quick, factory: &factory, tell: &tell };
     let found = report(&settings, &scenes).map_err(End::Stopped)?;
     bar.finish_and_clear();
     print(&found);
-    for file in first_files(folder) {
+    for file in first_files(out) {
         say!("{}", file.display());
     }
     Ok(())
-}
-
-/// Compares the linear solvers on the systems of the scenes. A bound that does not hold is an error.
-fn linear(course: &Course, scenes: &[Scene], arguments: &Arguments) -> Result<(), End> {
-    let body = |scene: &Scene| build::body(course, scene).map_err(|end| end.message());
-    let machine = Machine::this(&course.data());
-    let found = linear::study(scenes, arguments.quick, body, machine).map_err(End::unusable)?;
-    let unwritable = |error| End::unusable(format!("--out {}: cannot be written: {error}", arguments.out.display()));
-    write(&found, &arguments.out).map_err(unwritable)?;
-    for mark in found.parts.iter().flat_map(|part| &part.marks) {
-        let holds = if mark.holds == Some(true) { "holds" } else { "DOES NOT HOLD" };
-        say!("{holds}: {}: {}", mark.statement, mark.ours);
-    }
-    say!("{}", arguments.out.join("linear.html").display());
-    match found.parts.iter().all(fem_study::experiments::Part::passes) {
-        true => Ok(()),
-        false => Err(End::Stopped("a bound does not hold".to_owned())),
-    }
-}
-
-/// Runs each scene for every combination of values.
-fn sweep(course: &Course, arguments: &Arguments) -> Result<(), End> {
-    let bar = progress_bar();
-    let tell = |done: usize, all: usize, what: &str| show(&bar, done, all, what);
-    let swept = super::sweep::run(course, &arguments.scenes, &arguments.sweep, &arguments.out, &tell)?;
-    bar.finish_and_clear();
-    for file in swept.files {
-        say!("{}", file.display());
-    }
-    match swept.failed {
-        0 => Ok(()),
-        failed => Err(End::Stopped(format!(
-            "{failed} of {} runs failed or did not converge; the column `status` of sweep.csv tells why",
-            swept.runs
-        ))),
-    }
-}
-
-fn show(bar: &ProgressBar, done: usize, all: usize, what: &str) {
-    bar.set_length(all as u64);
-    bar.set_position(done as u64);
-    bar.set_message(what.to_owned());
 }
 
 fn print(found: &Report) {
@@ -114,11 +74,4 @@ fn print(found: &Report) {
     let rows = found.rows();
     let done = rows.iter().filter(|row| row.is_done()).count();
     say!("{} runs; {} of them failed, as the tables show", rows.len(), rows.len() - done);
-}
-
-/// The bar is hidden if stderr is no terminal.
-fn progress_bar() -> ProgressBar {
-    let style =
-        ProgressStyle::with_template("{bar:30} {pos:>4} of {len}  {elapsed}  {wide_msg}").expect("a valid template");
-    ProgressBar::new(1).with_style(style)
 }

@@ -1,6 +1,6 @@
 //! Mistakes of a thesis, each with three figures: by the thesis' rule, ours, and the true one.
 
-use super::{Mark, Table};
+use crate::study::{Mark, Table};
 
 /// A mistake.
 pub struct Mistake {
@@ -32,15 +32,18 @@ pub fn marks(found: &[Mistake]) -> Vec<Mark> {
 
 /// The table of all mistakes.
 pub fn table(name: &str, found: &[Mistake]) -> Table {
-    let row = |of: &Mistake| {
-        let numbers = [of.theirs, of.ours, of.truth].map(number);
-        [of.rule.to_owned(), of.right.to_owned(), of.quantity.clone()].into_iter().chain(numbers).collect()
-    };
-    Table {
-        name: name.to_owned(),
-        head: vec!["rule of the thesis", "right", "quantity", ">thesis", ">here", ">truth"],
-        rows: found.iter().map(row).collect(),
-    }
+    Table::of(
+        name,
+        found,
+        &[
+            ("rule of the thesis", &|of| of.rule.to_owned()),
+            ("right", &|of| of.right.to_owned()),
+            ("quantity", &|of| of.quantity.clone()),
+            (">thesis", &|of| number(of.theirs)),
+            (">here", &|of| number(of.ours)),
+            (">truth", &|of| number(of.truth)),
+        ],
+    )
 }
 
 /// Six digits, as a decimal or with a power of ten.

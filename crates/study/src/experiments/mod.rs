@@ -2,99 +2,67 @@
 
 pub mod flat;
 mod mistake;
-mod output;
 pub mod rtfem;
 
-use fem_chart::Picture;
+use std::io;
+use std::path::Path;
 
-use crate::machine::Machine;
+use crate::study::{Case, Finished, Found, Page, Part, Study, write};
 
-pub use output::write;
+/// A part: its name as an argument of the program, its title, and its run, which takes the folder `data` and whether it is to be short.
+type Entry = (&'static str, &'static str, fn(&Path, bool) -> Result<Part, String>);
 
-/// A statement that must be true of an experiment's outcome.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
-    /// The statement.
-    pub statement: String,
-    /// The figure of the thesis; empty where it has none.
-    pub theirs: String,
-    /// Our figure.
-    pub ours: String,
-    /// True if the statement holds; `None` where a short run cannot tell.
-    pub holds: Option<bool>,
-}
-
-impl Mark {
-    /// A mark without a figure of the thesis.
-    pub fn new(statement: impl Into<String>, ours: impl Into<String>, holds: bool) -> Self {
-        Self { statement: statement.into(), theirs: String::new(), ours: ours.into(), holds: Some(holds) }
-    }
-
-    /// Adds the figure of the thesis.
-    pub fn beside(self, theirs: impl Into<String>) -> Self {
-        Self { theirs: theirs.into(), ..self }
-    }
-}
-
-/// Numbers with a name for each column. A name that begins with `>` aligns its column to the right.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    /// Name of the file, without its ending.
-    pub name: String,
-    /// Names of the columns, with units.
-    pub head: Vec<&'static str>,
-    /// Rows of as many cells.
-    pub rows: Vec<Vec<String>>,
-}
-
-/// A picture with its caption.
-#[derive(Clone, Debug)]
-pub struct Figure {
-    /// Name of the file, without its ending.
-    pub name: String,
-    /// The picture.
-    pub picture: Picture,
-    /// The caption.
-    pub caption: String,
-}
-
-/// A part of an experiment.
-#[derive(Clone, Debug)]
-pub struct Part {
-    /// Its name as an argument of the program.
-    pub name: &'static str,
-    /// Its title.
-    pub title: &'static str,
-    /// A paragraph: the setting, the thesis' figure, the mistake behind it.
-    pub text: String,
-    /// Statements that must be true of it.
-    pub marks: Vec<Mark>,
-    /// Its numbers.
-    pub tables: Vec<Table>,
-    /// Its pictures.
-    pub figures: Vec<Figure>,
-}
-
-impl Part {
-    /// Returns true if no mark fails.
-    pub fn passes(&self) -> bool {
-        self.marks.iter().all(|mark| mark.holds != Some(false))
-    }
-}
-
-/// An experiment with the machine that it ran on.
-#[derive(Clone, Debug)]
-pub struct Experiment {
+/// A thesis.
+pub struct Thesis {
     /// Name of its page, without the ending.
     pub name: &'static str,
-    /// Title of its page.
-    pub title: &'static str,
-    /// First paragraph of its page.
-    pub text: &'static str,
-    /// The machine and the program.
-    pub machine: Machine,
-    /// The runs were shortened.
+    title: &'static str,
+    text: &'static str,
+    parts: &'static [Entry],
+}
+
+impl Thesis {
+    /// Names of the parts, in their order.
+    pub fn parts(&self) -> impl Iterator<Item = &'static str> {
+        self.parts.iter().map(|(name, ..)| *name)
+    }
+}
+
+/// The experiments of a thesis: one part of them, or all.
+pub struct Experiments<'a> {
+    /// The thesis.
+    pub thesis: &'static Thesis,
+    /// The name of the part; `None` for all.
+    pub part: Option<&'a str>,
+    /// The folder with pictures and meshes.
+    pub data: &'a Path,
+    /// Fewer and coarser bodies; times are not judged.
     pub quick: bool,
-    /// Its parts.
-    pub parts: Vec<Part>,
+}
+
+impl Study for Experiments<'_> {
+    type Row = Part;
+
+    fn arguments(&self) -> Vec<String> {
+        let words =
+            ["experiment", self.thesis.name].into_iter().chain(self.part).chain(self.quick.then_some("--quick"));
+        words.map(str::to_owned).collect()
+    }
+
+    fn cases(&self) -> Vec<Case<'_, Part>> {
+        let chosen = self.thesis.parts.iter().filter(|(name, ..)| self.part.is_none_or(|part| part == *name));
+        let case = |&(name, title, run): &Entry| {
+            Case::new(name, move || run(self.data, self.quick).unwrap_or_else(Part::failed).titled(name, title))
+        };
+        chosen.map(case).collect()
+    }
+
+    fn finish(&self, found: Found<Part>, out: &Path) -> io::Result<Finished> {
+        let &Thesis { name, title, text, .. } = self.thesis;
+        let page = Page { name, title, text, machine: found.machine, quick: self.quick, parts: found.rows };
+        write(&page, out)?;
+        let Finished { mut lines, failed } = page.finished();
+        lines.push(out.join(format!("{name}.html")).display().to_string());
+        Ok(Finished { lines, failed })
+    }
 }

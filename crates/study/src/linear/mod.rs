@@ -8,6 +8,9 @@ mod steepest_descent;
 #[cfg(test)]
 mod tests;
 
+use std::io;
+use std::path::Path;
+
 use fem_chart::{Axis, Chart, Dot, Series};
 use fem_engine::forces::Moment;
 use fem_engine::simulator::double::{self, Solver, System};
@@ -19,9 +22,8 @@ use fem_model::simulation::Breakdown;
 use fem_model::{Body, Integrator};
 use fem_scene::Scene;
 
-use crate::experiments::{Experiment, Figure, Mark, Part, Table};
-use crate::machine::Machine;
 use crate::space::conditioning::{irregular, largest_eigenvalue};
+use crate::study::{Case, Finished, Found, Mark, Page, Part, Study, Table, write};
 use conjugate_directions::conjugate_directions;
 use incomplete_cholesky::IncompleteCholesky;
 use steepest_descent::steepest_descent;
@@ -38,43 +40,69 @@ const ROUND_OFF: f64 = 1e-9;
 /// Margin for a condition number that Lanczos's method approaches from below.
 const MARGIN: f64 = 1.001;
 
-/// Studies the systems of scenes. `body` makes the body of a scene.
-///
-/// # Errors
-/// A scene whose systems cannot be built, as a sentence.
-pub fn study(
-    scenes: &[Scene],
-    quick: bool,
-    body: impl Fn(&Scene) -> Result<Body, String>,
-    machine: Machine,
-) -> Result<Experiment, String> {
-    let mut parts = Vec::new();
-    for scene in scenes {
-        let body = body(scene)?;
-        let nodes = body.shape.mesh.vertices().len();
-        if nodes > MOST_NODES[1] {
-            let most = MOST_NODES[1];
-            return Err(format!("{}: has {nodes} nodes; solvers are compared on at most {most}", scene.name));
-        }
-        let dt = (scene.time.integrator != Integrator::Static).then(|| scene.time.dt());
-        if let Some(dt) = dt {
-            parts.push(part(scene, body.clone(), Some(dt), quick)?);
-        }
-        // A free body has a singular stiffness.
-        if !body.dirichlet.is_empty() {
-            parts.push(part(scene, body, None, quick)?);
-        }
+/// A comparison of the solvers on the systems of scenes.
+pub struct LinearSolvers<'a> {
+    /// The scenes, each with its body.
+    pub systems: Vec<(Scene, Body)>,
+    /// Larger residuals.
+    pub quick: bool,
+    /// The names of the scenes as arguments of the program.
+    pub names: &'a [String],
+}
+
+const TEXT: &str = "Each solver starts from zero. The error is that of the solution in the energy norm, √(eᵀ A e), against a direct solve. With the condition \
+    number κ of the matrix, steepest descent multiplies it by at most (κ − 1)/(κ + 1) an iteration, and conjugate gradients have \
+    at most 2 ((√κ − 1)/(√κ + 1))ⁱ of it after i (Shewchuk 1994).";
+
+impl Study for LinearSolvers<'_> {
+    type Row = Part;
+
+    fn arguments(&self) -> Vec<String> {
+        let options = ["--linear"].into_iter().chain(self.quick.then_some("--quick")).map(str::to_owned);
+        ["report".to_owned()].into_iter().chain(self.names.iter().cloned()).chain(options).collect()
     }
-    Ok(Experiment {
-        name: "linear",
-        title: "Convergence of linear solvers",
-        text: "Each solver starts from zero. The error is that of the solution in the energy norm, √(eᵀ A e), against a direct solve. With the condition \
-               number κ of the matrix, steepest descent multiplies it by at most (κ − 1)/(κ + 1) an iteration, and conjugate gradients have \
-               at most 2 ((√κ − 1)/(√κ + 1))ⁱ of it after i (Shewchuk 1994).",
-        machine,
-        quick,
-        parts,
-    })
+
+    fn cases(&self) -> Vec<Case<'_, Part>> {
+        let mut cases = Vec::new();
+        for (scene, body) in &self.systems {
+            let mut add = |name: &'static str, title: &'static str, dt: Option<f64>| {
+                let work = move || self.part(scene, body, dt, name).unwrap_or_else(Part::failed).titled(name, title);
+                cases.push(Case::new(format!("{}, {name}", scene.name), work));
+            };
+            if scene.time.integrator != Integrator::Static {
+                add("step", "The first step", Some(scene.time.dt()));
+            }
+            // A free body has a singular stiffness.
+            if !body.dirichlet.is_empty() {
+                add("stiffness", "The stiffness", None);
+            }
+        }
+        cases
+    }
+
+    fn finish(&self, found: Found<Part>, out: &Path) -> io::Result<Finished> {
+        let title = "Convergence of linear solvers";
+        let Found { rows: parts, machine, .. } = found;
+        let page = Page { name: "linear", title, text: TEXT, machine, quick: self.quick, parts };
+        write(&page, out)?;
+        let line = |mark: &Mark| {
+            let holds = if mark.holds == Some(true) { "holds" } else { "DOES NOT HOLD" };
+            format!("{holds}: {}: {}", mark.statement, mark.ours)
+        };
+        let mut lines: Vec<String> = page.marks().map(|(_, mark)| line(mark)).collect();
+        lines.push(out.join("linear.html").display().to_string());
+        let holds = page.parts.iter().all(Part::passes);
+        Ok(Finished { lines, failed: (!holds).then(|| "a bound does not hold".to_owned()) })
+    }
+}
+
+/// Returns an error if a body has too many nodes for this study.
+pub fn check(scene: &Scene, body: &Body) -> Result<(), String> {
+    let (nodes, most) = (body.shape.mesh.vertices().len(), MOST_NODES[1]);
+    match nodes > most {
+        true => Err(format!("{}: has {nodes} nodes; solvers are compared on at most {most}", scene.name)),
+        false => Ok(()),
+    }
 }
 
 /// A linear system with its condition number and its solution.
@@ -197,71 +225,66 @@ fn of_root(kappa: f64) -> f64 {
     (kappa.sqrt() - 1.0) / (kappa.sqrt() + 1.0)
 }
 
-fn part(scene: &Scene, body: Body, dt: Option<f64>, quick: bool) -> Result<Part, String> {
-    let of = LinearSystem::new(&scene.name, body, dt)?;
-    let tolerance = TOLERANCE[usize::from(quick)];
-    let (what, file) = match dt {
-        Some(dt) => (format!("M/dt² + K of the first step of {dt} s of `{}`", scene.name), "step"),
-        None => (format!("the stiffness K of `{}`", scene.name), "stiffness"),
-    };
-    let name = format!("linear-{}-{file}", scene.name);
-    let (mut marks, mut rows, mut series) = (Vec::new(), Vec::new(), Vec::new());
-    for (colour, (method, iteration, bound)) in METHODS.into_iter().enumerate() {
-        if iteration == Method::ConjugateDirections && of.system.nodes() > MOST_NODES[0] {
-            continue;
-        }
-        let (found, breakdown) = of.iterates(iteration, tolerance);
-        let Some(first) = found.first().map(|iterate| iterate[1]) else { continue };
-        let mut curve = Series { name: method.to_owned(), colour, is_joined: true, ..Series::default() };
-        let mut limit = Series { colour, is_joined: true, ..Series::default() };
-        let mut worst: f64 = 0.0;
-        for (i, [residual, error]) in found.iter().enumerate() {
-            let part = error / first;
-            let bound = bound.map(|(factor, rate)| factor * rate(of.condition).powf(i as f64));
-            if let Some(bound) = bound.filter(|_| part > ROUND_OFF) {
-                worst = worst.max(part / bound);
+impl LinearSolvers<'_> {
+    fn part(&self, scene: &Scene, body: &Body, dt: Option<f64>, file: &str) -> Result<Part, String> {
+        let of = LinearSystem::new(&scene.name, body.clone(), dt)?;
+        let tolerance = TOLERANCE[usize::from(self.quick)];
+        let what = match dt {
+            Some(dt) => format!("M/dt² + K of the first step of {dt} s of `{}`", scene.name),
+            None => format!("the stiffness K of `{}`", scene.name),
+        };
+        let name = format!("linear-{}-{file}", scene.name);
+        let (mut marks, mut rows, mut series) = (Vec::new(), Vec::new(), Vec::new());
+        for (colour, (method, iteration, bound)) in METHODS.into_iter().enumerate() {
+            if iteration == Method::ConjugateDirections && of.system.nodes() > MOST_NODES[0] {
+                continue;
             }
-            if is_shown(i) || i + 1 == found.len() {
-                curve.dots.push(Dot { x: i as f64 + 1.0, y: part, ..Dot::default() });
-                limit.dots.extend(bound.map(|y| Dot { x: i as f64 + 1.0, y, ..Dot::default() }));
-                let told = bound.map_or(String::new(), |bound| format!("{bound:.6e}"));
-                rows.push(vec![
-                    method.to_owned(),
-                    i.to_string(),
-                    format!("{residual:.6e}"),
-                    format!("{part:.6e}"),
-                    told,
-                ]);
+            let (found, breakdown) = of.iterates(iteration, tolerance);
+            let Some(first) = found.first().map(|iterate| iterate[1]) else { continue };
+            let mut curve = Series::line(method, colour, [] as [Dot; 0]);
+            let mut limit = Series::line("", colour, [] as [Dot; 0]);
+            let mut worst: f64 = 0.0;
+            for (i, [residual, error]) in found.iter().enumerate() {
+                let part = error / first;
+                let bound = bound.map(|(factor, rate)| factor * rate(of.condition).powf(i as f64));
+                if let Some(bound) = bound.filter(|_| part > ROUND_OFF) {
+                    worst = worst.max(part / bound);
+                }
+                if is_shown(i) || i + 1 == found.len() {
+                    curve.dots.push((i as f64 + 1.0, part).into());
+                    limit.dots.extend(bound.map(|y| Dot::from((i as f64 + 1.0, y))));
+                    let told = bound.map_or(String::new(), |bound| format!("{bound:.6e}"));
+                    rows.push(vec![
+                        method.to_owned(),
+                        i.to_string(),
+                        format!("{residual:.6e}"),
+                        format!("{part:.6e}"),
+                        told,
+                    ]);
+                }
             }
+            if bound.is_some() {
+                let end = breakdown.map_or(String::new(), |breakdown| format!(", ended early: {breakdown}"));
+                let figure = format!("{} iterations, at most {worst:.3} of the bound{end}", found.len() - 1);
+                marks.push(Mark::new(
+                    format!("{method} stays below its bound at every iteration"),
+                    figure,
+                    worst <= 1.0,
+                ));
+                series.push(limit);
+            }
+            series.push(curve);
         }
-        if bound.is_some() {
-            let end = breakdown.map_or(String::new(), |breakdown| format!(", ended early: {breakdown}"));
-            let figure = format!("{} iterations, at most {worst:.3} of the bound{end}", found.len() - 1);
-            marks.push(Mark::new(format!("{method} stays below its bound at every iteration"), figure, worst <= 1.0));
-            series.push(limit);
-        }
-        series.push(curve);
+        let chart = Chart {
+            series,
+            ..Chart::new(&what, Axis::log("iteration + 1"), Axis::log("error over the first one, energy norm"))
+        };
+        let text =
+            format!("The matrix is {what}: {} unknowns, κ = {:.4e}.", 3 * of.system.free(), of.condition / MARGIN);
+        let table = Table::new(&name, &["solver", ">iteration", ">residual", ">error", ">bound"], rows);
+        let caption = format!("Solvers on {what}; lines without a name are bounds.");
+        Ok(Part::new(text).marks(marks).tables([table]).chart(name, &chart, caption))
     }
-    let chart = Chart {
-        series,
-        ..Chart::new(&what, Axis::log("iteration + 1"), Axis::log("error over the first one, energy norm"))
-    };
-    Ok(Part {
-        name: file,
-        title: if dt.is_some() { "The first step" } else { "The stiffness" },
-        text: format!("The matrix is {what}: {} unknowns, κ = {:.4e}.", 3 * of.system.free(), of.condition / MARGIN),
-        marks,
-        tables: vec![Table {
-            name: name.clone(),
-            head: vec!["solver", ">iteration", ">residual", ">error", ">bound"],
-            rows,
-        }],
-        figures: vec![Figure {
-            name,
-            picture: chart.draw(),
-            caption: format!("Solvers on {what}; lines without a name are bounds."),
-        }],
-    })
 }
 
 /// Returns true if an iteration is shown in the table and in the picture: the first fifty, and then twenty in each decade.

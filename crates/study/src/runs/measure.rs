@@ -12,7 +12,7 @@ use fem_scene::Scene;
 use fem_scene::simulate::quantile;
 
 /// Builds the simulation of a scene with the pipeline that the scene names.
-pub type Factory<'a> = dyn Fn(&Scene) -> Result<Box<dyn Simulation>, String> + 'a;
+pub type Factory<'a> = dyn Fn(&Scene) -> Result<Box<dyn Simulation>, String> + Sync + 'a;
 
 /// The result of a run.
 #[derive(Clone, Debug, PartialEq)]

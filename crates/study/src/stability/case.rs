@@ -1,12 +1,15 @@
 //! A case of the study, its outcome, and the row that it becomes.
 
 use std::fmt;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use super::families::maps::Map;
+use crate::study::{self, Deadline, Stopped, guarded};
 
 /// The outcome of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// All values stay finite, J > 0, at least 95 % of the steps converge, and the margin is within its bound.
@@ -78,33 +81,24 @@ pub struct Finding {
     pub margin: Option<f64>,
     /// Further figures, or the message of an error.
     pub note: String,
+    /// The map that the case has drawn.
+    pub map: Option<Map>,
 }
 
 impl Finding {
     /// A finding with a margin.
     pub fn new(outcome: Outcome, margin: f64, note: impl Into<String>) -> Self {
-        Self { outcome, margin: Some(margin), note: note.into() }
+        Self { margin: Some(margin), ..Self::plain(outcome, note) }
     }
 
     /// A finding without a margin.
     pub fn plain(outcome: Outcome, note: impl Into<String>) -> Self {
-        Self { outcome, margin: None, note: note.into() }
+        Self { outcome, margin: None, note: note.into(), map: None }
     }
 
     /// `Survives` if the margin, relative to its bound, is at most 1; NaN is not.
     pub fn within(part: f64, note: impl Into<String>) -> Self {
         Self::new(if part <= 1.0 { Outcome::Survives } else { Outcome::Deviates }, part, note)
-    }
-}
-
-/// The time at which a case must end.
-#[derive(Clone, Copy, Debug)]
-pub struct Deadline(pub Instant);
-
-impl Deadline {
-    /// Returns true after the deadline.
-    pub fn is_over(&self) -> bool {
-        Instant::now() >= self.0
     }
 }
 
@@ -136,11 +130,53 @@ pub struct Case {
     pub work: Work,
 }
 
+/// Time after which a case ends itself between two steps.
+const TIME_LIMIT: Duration = Duration::from_secs(60);
+
+impl Case {
+    /// The case for the runner of all studies. A panic or a hang becomes its row.
+    pub fn guarded(self) -> study::Case<'static, CaseRow> {
+        let Self { family, case, parameters, integrator, material, expected, margin_is, seed, work } = self;
+        let seeded = seed.map_or(String::new(), |seed| format!(", seed {seed}"));
+        let name = format!("{family}: {case} ({parameters}), {integrator}, {material}{seeded}");
+        study::Case::new(name, move || {
+            let start = Instant::now();
+            let Finding { outcome, margin, note, map } = guarded(TIME_LIMIT, work).unwrap_or_else(Finding::from);
+            CaseRow {
+                family: family.to_owned(),
+                case,
+                parameters,
+                integrator,
+                material,
+                expected,
+                outcome,
+                margin: margin.filter(|margin| margin.is_finite()),
+                margin_is: margin_is.to_owned(),
+                seed,
+                pass: outcome.satisfies(expected),
+                // A row is one line.
+                note: note.split_whitespace().collect::<Vec<_>>().join(" "),
+                seconds: start.elapsed().as_secs_f64(),
+                map,
+            }
+        })
+    }
+}
+
+impl From<Stopped> for Finding {
+    fn from(stopped: Stopped) -> Self {
+        match stopped {
+            Stopped::Panicked(message) => Self::plain(Outcome::Panics, message),
+            Stopped::Hangs => Self::plain(Outcome::Hangs, "a step does not end"),
+        }
+    }
+}
+
 /// A case with its result.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[allow(missing_docs)] // as in `Case`
 pub struct CaseRow {
-    pub family: &'static str,
+    pub family: String,
     pub case: String,
     pub parameters: String,
     pub integrator: String,
@@ -148,9 +184,29 @@ pub struct CaseRow {
     pub expected: Outcome,
     pub outcome: Outcome,
     pub margin: Option<f64>,
-    pub margin_is: &'static str,
+    pub margin_is: String,
     pub seed: Option<u64>,
     pub pass: bool,
     pub note: String,
     pub seconds: f64,
+    /// The map of a case that draws one; tables have it beside the rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<Map>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_a_finding_with_its_message() {
+        let found =
+            guarded(TIME_LIMIT, |_| -> Finding { panic!("element {} is gone", 7) }).unwrap_or_else(Finding::from);
+        assert_eq!((found.outcome, found.note.as_str()), (Outcome::Panics, "element 7 is gone"));
+    }
+
+    #[test]
+    fn nan_is_not_within_a_bound() {
+        assert_eq!(Finding::within(f64::NAN, "").outcome, Outcome::Deviates);
+    }
 }

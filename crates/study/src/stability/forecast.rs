@@ -2,11 +2,12 @@
 
 use fem_engine::simulator::Simulator;
 
-use super::case::{Deadline, Finding, Outcome};
+use super::case::{Finding, Outcome};
 use super::initial_state::Random;
 use super::march::march;
 use super::scene_text::{CLAMPED, SceneText};
 use super::theory::{self, HighestMode};
+use crate::study::Deadline;
 
 /// Initial amplitude of the highest mode, m; the body's elements have edges of 1 m.
 const AMPLITUDE: f64 = 1e-4;

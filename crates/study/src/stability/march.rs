@@ -1,6 +1,7 @@
 //! Time marching of a case, with the quantities that decide its outcome.
 
-use super::case::{Deadline, Finding, Outcome};
+use super::case::{Finding, Outcome};
+use crate::study::Deadline;
 
 use fem_engine::simulator::{Compiled, Simulator};
 use fem_model::simulation::{Failure, Simulation};

@@ -1,39 +1,65 @@
 //! Stiff and extreme cases: the outcome of each integrator beside the prediction of theory, or the robustness that is promised.
 //!
-//! Each file of `families` adds cases. `runner` runs them with a time limit and catches panics, so that every case becomes a row;
-//! `output` writes the rows.
+//! Each file of `families` adds cases.
 
 mod case;
 mod families;
 mod forecast;
 mod initial_state;
 mod march;
-mod output;
 mod page;
 mod results;
-mod runner;
 mod scene_text;
 mod theory;
 
 pub use case::{CaseRow, Outcome};
 pub use families::maps::{Cell, Map};
-pub use output::write;
 pub use results::{Counts, Results};
-pub use runner::Progress;
 
+use std::fs;
+use std::io;
 use std::path::Path;
-use std::time::Instant;
+use std::thread;
 
-use crate::machine::Machine;
-use families::maps;
+use crate::study::{self, Finished, Found, Study};
 
-/// Runs all cases, or a few of each family if `quick`. `progress` receives every row; the results name the commit of the checkout
-/// around `sources`.
-pub fn study(quick: bool, sources: &Path, progress: Progress) -> Results {
-    let (start, machine) = (Instant::now(), Machine::this(sources));
-    let found = maps::Found::default();
-    let rows = runner::rows(families::cases(quick, &found), progress);
-    let mut maps = found.lock().map(|maps| maps.clone()).unwrap_or_default();
-    maps.sort_by_key(|map| scene_text::DYNAMIC.iter().position(|name| *name == map.integrator));
-    Results::new(quick, machine, start.elapsed().as_secs_f64(), rows, maps)
+/// The study of stiff and extreme cases.
+pub struct Stability {
+    /// One or a few cases of each family.
+    pub quick: bool,
+}
+
+impl Study for Stability {
+    type Row = CaseRow;
+
+    fn arguments(&self) -> Vec<String> {
+        ["stability"].into_iter().chain(self.quick.then_some("--quick")).map(str::to_owned).collect()
+    }
+
+    fn cases(&self) -> Vec<study::Case<'_, CaseRow>> {
+        families::cases(self.quick).into_iter().map(case::Case::guarded).collect()
+    }
+
+    fn threads(&self) -> usize {
+        thread::available_parallelism().map_or(1, usize::from)
+    }
+
+    fn remark(&self, row: &CaseRow) -> Option<String> {
+        let CaseRow { family, case, parameters, integrator, material, expected, outcome, note, .. } = row;
+        let case = format!("{family}: {case} ({parameters}), {integrator}, {material}");
+        (!row.pass).then(|| format!("{case}: {outcome}, expected: {expected}; {note}"))
+    }
+
+    /// Writes `stability.csv`, `stability.json`, `stability.html`, and a picture of each map.
+    fn finish(&self, found: Found<CaseRow>, out: &Path) -> io::Result<Finished> {
+        let results = Results::new(self.quick, found);
+        fs::write(out.join("stability.csv"), results.csv()?)?;
+        fs::write(out.join("stability.json"), serde_json::to_string_pretty(&results)? + "\n")?;
+        for map in &results.maps {
+            let picture = page::picture(map).standalone();
+            fs::write(out.join(format!("stability-{}.svg", map.integrator)), picture)?;
+        }
+        fs::write(out.join("stability.html"), page::render(&results))?;
+        Ok(results.finished(out))
+    }
 }

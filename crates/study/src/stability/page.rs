@@ -12,7 +12,7 @@ use super::results::Results;
 
 /// The whole page.
 pub fn render(study: &Results) -> String {
-    let mut families: Vec<&str> = study.rows.iter().map(|row| row.family).collect();
+    let mut families: Vec<&str> = study.rows.iter().map(|row| row.family.as_str()).collect();
     families.dedup();
     let failed: Vec<&CaseRow> = study.rows.iter().filter(|row| !row.pass).collect();
     let body = html! {
@@ -58,7 +58,7 @@ fn head(study: &Results) -> Markup {
         p class="soft" {
             (counts.seeded_rows) " cases start from random states with " (counts.seeds) " seeds; the maps contain " (counts.map_cells)
             " more runs. " @if study.quick { "This is the short study. " }
-            "Wall-deadline time: " (format!("{:.0}", study.seconds)) " s. " (study.machine.line()) "."
+            "Wall-clock time: " (format!("{:.0}", study.seconds)) " s. " (study.machine.line()) "."
         } "\n"
     }
 }
@@ -69,7 +69,7 @@ fn stiffness_and_step(maps: &[Map]) -> Markup {
         let unexpected = map.cells.iter().filter(|cell| cell.outcome != cell.expected).count();
         let steps = map.cells.iter().map(|cell| cell.steps).max().unwrap_or_default();
         html! {
-            b { (words(map.integrator)) } ": " (exploded) " of " (map.cells.len()) " runs diverge, " (unexpected)
+            b { (words(&map.integrator)) } ": " (exploded) " of " (map.cells.len()) " runs diverge, " (unexpected)
             " against the prediction; up to " (steps) " steps."
         }
     };
@@ -113,12 +113,12 @@ pub fn picture(map: &Map) -> Picture {
         0 => format!("1e{}", column as i32 / PARTS_OF_DT - 5),
         _ => String::new(),
     };
-    let limit = match map.integrator {
+    let limit = match map.integrator.as_str() {
         "explicit_euler" | "rk2" => format!("growth by e⁷ in {} steps", map.most_steps),
         _ => "dt = limit / ω_max".to_owned(),
     };
     HeatMap {
-        label: format!("{}: stable and diverging (×) runs", words(map.integrator)),
+        label: format!("{}: stable and diverging (×) runs", words(&map.integrator)),
         columns: ("time step dt (s)".to_owned(), (0..TIME_STEPS).map(dt).collect()),
         rows: (
             "Young's modulus E (Pa)".to_owned(),
@@ -214,7 +214,7 @@ fn chapter(family: &str, study: &Results) -> Markup {
 fn rows(all: &[&CaseRow]) -> Markup {
     let line = |row: &&CaseRow| {
         let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
-        let of = if margin.is_empty() { "" } else { row.margin_is };
+        let of = if margin.is_empty() { "" } else { &row.margin_is };
         let seed = row.seed.map_or(String::new(), |seed| format!(", seed {seed}"));
         let expected = if row.pass { String::new() } else { format!("expected: {}", row.expected) };
         vec![

@@ -1,6 +1,7 @@
 //! The results of a study: rows, maps and their counts.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use serde::Serialize;
 
@@ -8,6 +9,7 @@ use super::case::CaseRow;
 use super::families::maps::Map;
 use crate::csv_table::csv_text;
 use crate::machine::Machine;
+use crate::study::{Finished, Found};
 
 /// The results of a study.
 #[derive(Clone, Debug, Serialize)]
@@ -16,7 +18,7 @@ pub struct Results {
     pub quick: bool,
     /// Machine and date.
     pub machine: Machine,
-    /// Wall-clock time of the study, s.
+    /// Wall-clock time of the study, s; of joined shards, that of all cases.
     pub seconds: f64,
     /// Numbers of rows.
     pub counts: Counts,
@@ -43,7 +45,8 @@ pub struct Counts {
 
 impl Results {
     /// Counts rows and maps.
-    pub fn new(quick: bool, machine: Machine, seconds: f64, rows: Vec<CaseRow>, maps: Vec<Map>) -> Self {
+    pub fn new(quick: bool, Found { mut rows, machine, seconds }: Found<CaseRow>) -> Self {
+        let maps: Vec<Map> = rows.iter_mut().filter_map(|row| row.map.take()).collect();
         let seeds: Vec<u64> = rows.iter().filter_map(|row| row.seed).collect();
         let counts = Counts {
             rows: rows.len(),
@@ -58,6 +61,18 @@ impl Results {
     /// Returns true if every row has the expected outcome.
     pub fn passes(&self) -> bool {
         self.counts.pass == self.counts.rows
+    }
+
+    /// The end of the study.
+    pub fn finished(&self, out: &Path) -> Finished {
+        let Counts { rows, pass, seeded_rows, seeds, map_cells } = self.counts;
+        let told = format!(
+            "{pass} of {rows} cases as expected ({seeded_rows} of them from random states with {seeds} seeds; {map_cells} more runs in \
+             maps), {:.0} s",
+            self.seconds
+        );
+        let failed = (!self.passes()).then(|| format!("{} cases have an unexpected outcome", rows - pass));
+        Finished { lines: vec![told, out.join("stability.html").display().to_string()], failed }
     }
 
     /// `stability.csv`: a head and a line for each row.
@@ -85,10 +100,8 @@ fn cells(row: &CaseRow) -> Vec<String> {
     let seed = row.seed.map_or(String::new(), |seed| seed.to_string());
     // Other machines reproduce four digits.
     let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
-    // A row is one line.
-    let note = row.note.lines().map(str::trim).collect::<Vec<_>>().join(" ");
     let cells = [
-        row.family,
+        row.family.as_str(),
         &row.case,
         &row.parameters,
         &row.integrator,
@@ -98,8 +111,8 @@ fn cells(row: &CaseRow) -> Vec<String> {
         row.outcome.name(),
         &margin,
         if row.pass { "true" } else { "false" },
-        row.margin_is,
-        &note,
+        &row.margin_is,
+        &row.note,
     ];
     cells.map(str::to_owned).to_vec()
 }

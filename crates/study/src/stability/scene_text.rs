@@ -4,7 +4,8 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use super::case::{Case, Deadline, Finding, Outcome, SMALLEST_J};
+use super::case::{Case, Finding, Outcome, SMALLEST_J};
+use crate::study::Deadline;
 
 use fem_engine::simulator::{Compiled, Simulator};
 use fem_mesh::TetrahedralMesh;

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use fem_chart::{Axis, Chart, Dot, Guide, Picture, Series};
+use fem_chart::{Axis, Chart, Dot, Guide, Series};
 
-use crate::experiments::{Figure, Mark, Part, Table};
 use crate::runs::convergence_order::fit;
 use crate::space::manufactured::{label, orders, solve};
+use crate::study::{Mark, Part, Table};
 use fem_model::element::Element;
 
 const MODELS: [&str; 2] = ["linear", "neo_hookean"];
@@ -42,37 +42,14 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
             sequences.push(sequence);
         }
     }
-    Ok(Part {
-        name: "convergence",
-        title: "Errors of linear and of quadratic triangles",
-        text: format!(
-            "Equilibrium of the unit square in plane strain under the body force of u = (0.06, −0.05) sin πx sin πy m, with fixed sides. Theory: the \
-             error of linear triangles falls with h² in L2 and with h in H1, that of quadratic ones with h³ and h². An order is that of the two \
-             finest of {} meshes. The thesis has no such figures.",
-            cells.len()
-        ),
-        marks,
-        tables: vec![Table {
-            name: "flat-convergence".to_owned(),
-            head: vec![
-                "law",
-                "elements",
-                ">h (m)",
-                ">nodes",
-                ">error in L2",
-                ">order",
-                ">error in H1",
-                ">order",
-                ">solution (ms)",
-            ],
-            rows: sequences.iter().flat_map(rows).collect(),
-        }],
-        figures: vec![Figure {
-            name: "flat-convergence".to_owned(),
-            picture: picture(&sequences),
-            caption: "Relative errors of the neo-Hookean square, by quadrature of degree 7.".to_owned(),
-        }],
-    })
+    let text = format!(
+        "Equilibrium of the unit square in plane strain under the body force of u = (0.06, −0.05) sin πx sin πy m, with fixed sides. Theory: the \
+         error of linear triangles falls with h² in L2 and with h in H1, that of quadratic ones with h³ and h². An order is that of the two \
+         finest of {} meshes. The thesis has no such figures.",
+        cells.len()
+    );
+    let caption = "Relative errors of the neo-Hookean square, by quadrature of degree 7.";
+    Ok(Part::new(text).marks(marks).tables([table(&sequences)]).chart("flat-convergence", &chart(&sequences), caption))
 }
 
 fn level(model: &str, element: &Element, cells: usize) -> Result<Level, String> {
@@ -99,59 +76,50 @@ fn judge(sequence: &Sequence, norm: usize) -> Mark {
 
 const NORMS: [&str; 2] = ["L2", "H1"];
 
-fn rows(sequence: &Sequence) -> Vec<Vec<String>> {
-    let of_level = |(number, level): (usize, &Level)| {
-        let pair = number.checked_sub(1).map(|before| &sequence.levels[before..=number]);
-        let observed = |norm: usize| {
-            pair.and_then(|pair| order(pair, norm)).map_or("–".to_owned(), |order| format!("{order:.3}"))
-        };
-        vec![
-            sequence.model.to_owned(),
-            label(sequence.element),
-            format!("{:.5}", level.spacing),
-            level.nodes.to_string(),
-            format!("{:.4e}", level.errors[0]),
-            observed(0),
-            format!("{:.4e}", level.errors[1]),
-            observed(1),
-            format!("{:.2}", 1e3 * level.seconds),
-        ]
+fn table(sequences: &[Sequence]) -> Table {
+    let numbered = |of| move |number| (of, number);
+    let rows: Vec<(&Sequence, usize)> =
+        sequences.iter().flat_map(|of| (0..of.levels.len()).map(numbered(of))).collect();
+    let observed = |(of, number): &(&Sequence, usize), norm: usize| {
+        let pair = number.checked_sub(1).map(|before| &of.levels[before..=*number]);
+        pair.and_then(|pair| order(pair, norm)).map_or("–".to_owned(), |order| format!("{order:.3}"))
     };
-    sequence.levels.iter().enumerate().map(of_level).collect()
+    Table::of(
+        "flat-convergence",
+        &rows,
+        &[
+            ("law", &|(of, _)| of.model.to_owned()),
+            ("elements", &|(of, _)| label(of.element)),
+            (">h (m)", &|(of, number)| format!("{:.5}", of.levels[*number].spacing)),
+            (">nodes", &|(of, number)| of.levels[*number].nodes.to_string()),
+            (">error in L2", &|(of, number)| format!("{:.4e}", of.levels[*number].errors[0])),
+            (">order", &|row| observed(row, 0)),
+            (">error in H1", &|(of, number)| format!("{:.4e}", of.levels[*number].errors[1])),
+            (">order", &|row| observed(row, 1)),
+            (">solution (ms)", &|(of, number)| format!("{:.2}", 1e3 * of.levels[*number].seconds)),
+        ],
+    )
 }
 
-fn picture(sequences: &[Sequence]) -> Picture {
+fn chart(sequences: &[Sequence]) -> Chart {
     let text = "errors of linear and quadratic triangles over the edge of a cell";
     let mut chart = Chart::new(text, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
     let shown = sequences.iter().filter(|sequence| sequence.model == "neo_hookean");
     for (place, sequence) in shown.enumerate() {
         for (norm, name) in NORMS.into_iter().enumerate() {
-            let dot = |level: &Level| Dot {
-                x: level.spacing,
-                y: level.errors[norm],
-                title: format!(
-                    "{}, {} nodes\nerror in {name} {:.3e}",
-                    label(sequence.element),
-                    level.nodes,
-                    level.errors[norm]
-                ),
-                ..Dot::default()
+            let dot = |level: &Level| {
+                let error = level.errors[norm];
+                let title = format!("{}, {} nodes\nerror in {name} {error:.3e}", label(sequence.element), level.nodes);
+                Dot::new(level.spacing, error, title)
             };
             let finest = sequence.levels.last().map(|level| (level.spacing, 0.6 * level.errors[norm]));
             let slope = orders(sequence.element)[norm];
             if let Some(through) = finest {
                 chart.guides.push(Guide::Slope { through, slope, name: format!("h^{slope}") });
             }
-            chart.series.push(Series {
-                name: format!("{}, {name}", label(sequence.element)),
-                colour: place,
-                shape: norm,
-                is_joined: true,
-                has_dots: true,
-                dots: sequence.levels.iter().map(dot).collect(),
-                ..Series::default()
-            });
+            let name = format!("{}, {name}", label(sequence.element));
+            chart.series.push(Series::joined(name, (place, norm), sequence.levels.iter().map(dot)));
         }
     }
-    chart.draw()
+    chart
 }

@@ -3,15 +3,15 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use fem_chart::{Axis, Chart, Dot, Series};
+use fem_chart::{Axis, Chart, Series};
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::PictureMesh;
 use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector2;
 
 use super::object::{DENSITY, LAME, OBJECTS, meshed, picture, simulator};
-use super::simulation::step;
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::scenes::step;
+use crate::study::{Mark, Part, Table};
 
 /// Length of the edges, m, for a height of 1 m.
 const EDGE: f64 = 0.1;
@@ -78,48 +78,28 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
             ),
         ]);
     }
-    let row = |body: &Fallen| {
-        vec![
-            body.name.to_owned(),
-            body.triangles.to_string(),
-            format!("{:.2e}", body.smallest_gap),
-            body.at_rest.map_or("".to_owned(), |time| format!("{time:.2}")),
-            format!("{:.1e}", body.speed),
-            format!("{:.1e}", body.balance[0]),
-            format!("{:.1e}", body.balance[1]),
-            format!("{:.1e}", body.lag),
-        ]
-    };
-    Ok(Part {
-        name: "drop",
-        title: "Dropped bodies",
-        text: format!(
-            "Each object of {DENSITY} kg/m³ with λ = μ = {LAME} Pa falls {HEIGHT} m onto a floor between two slopes, each plane {OFFSET} m from a common centre, \
-             with friction {FRICTION} and the thesis' damping of {DAMPING} Pa s, by implicit Euler at {FRAMES} steps a second. Without a damping of rigid \
-             motions, here {DRAG} per second, the donut rolls and the bunny rocks for longer than {DURATION} s. A body rests from the time on at which the planes carry its weight \
-             within {BALANCE:e} and no node is faster than {REST} m/s. A horizontal force is left while it creeps on friction that is smoothed below {TRANSITION:e} m/s."
-        ),
-        marks,
-        tables: vec![Table {
-            name: "flat-drop".to_owned(),
-            head: vec![
-                "object",
-                ">triangles",
-                ">smallest gap (m)",
-                ">at rest after (s)",
-                ">speed at the end (m/s)",
-                ">|Σ F − m g| / m g",
-                ">horizontal force / m g",
-                ">residual of the lag",
-            ],
-            rows: fallen.iter().map(row).collect(),
-        }],
-        figures: vec![Figure {
-            name: "flat-drop".to_owned(),
-            picture: chart(&fallen).draw(),
-            caption: format!("The bodies after {DURATION} s."),
-        }],
-    })
+    let text = format!(
+        "Each object of {DENSITY} kg/m³ with λ = μ = {LAME} Pa falls {HEIGHT} m onto a floor between two slopes, each plane {OFFSET} m from a common centre, \
+         with friction {FRICTION} and the thesis' damping of {DAMPING} Pa s, by implicit Euler at {FRAMES} steps a second. Without a damping of rigid \
+         motions, here {DRAG} per second, the donut rolls and the bunny rocks for longer than {DURATION} s. A body rests from the time on at which the planes carry its weight \
+         within {BALANCE:e} and no node is faster than {REST} m/s. A horizontal force is left while it creeps on friction that is smoothed below {TRANSITION:e} m/s."
+    );
+    let table = Table::of(
+        "flat-drop",
+        &fallen,
+        &[
+            ("object", &|body| body.name.to_owned()),
+            (">triangles", &|body| body.triangles.to_string()),
+            (">smallest gap (m)", &|body| format!("{:.2e}", body.smallest_gap)),
+            (">at rest after (s)", &|body| body.at_rest.map_or("".to_owned(), |time| format!("{time:.2}"))),
+            (">speed at the end (m/s)", &|body| format!("{:.1e}", body.speed)),
+            (">|Σ F − m g| / m g", &|body| format!("{:.1e}", body.balance[0])),
+            (">horizontal force / m g", &|body| format!("{:.1e}", body.balance[1])),
+            (">residual of the lag", &|body| format!("{:.1e}", body.lag)),
+        ],
+    );
+    let caption = format!("The bodies after {DURATION} s.");
+    Ok(Part::new(text).marks(marks).tables([table]).chart("flat-drop", &chart(&fallen), caption))
 }
 
 fn fall(data: &Path, name: &'static str) -> Result<Fallen, String> {
@@ -210,16 +190,9 @@ fn chart(fallen: &[Fallen]) -> Chart {
     for (number, body) in fallen.iter().enumerate() {
         let centre = 0.5 * (body.planes[1] + body.planes[2]);
         let shift = Vector2::new(width * (number as f64 + 0.5), 0.0) - centre;
-        let dots = |line: &[Vector2<f64>]| {
+        let curve = |name: &str, colour: usize, line: &[Vector2<f64>]| {
             let placed = line.iter().map(|x| x + shift);
-            placed.map(|x| Dot { x: x.x, y: x.y, ..Dot::default() }).collect::<Vec<_>>()
-        };
-        let curve = |name: &str, colour: usize, line: &[Vector2<f64>]| Series {
-            name: name.to_owned(),
-            colour,
-            is_joined: true,
-            dots: dots(line),
-            ..Series::default()
+            Series::line(name, colour, placed.map(|x| (x.x, x.y)))
         };
         series.push(curve("", 8, &body.planes));
         for (i, line) in body.outlines.iter().enumerate() {

@@ -9,7 +9,7 @@ use fem_mesh::triangle_quality;
 use nalgebra::Vector2;
 
 use super::object::{OBJECTS, meshed, picture};
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::study::{Mark, Part, Table};
 
 /// Iterations that are shown.
 const ITERATIONS: usize = 20;
@@ -26,24 +26,12 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
         let picture = picture(data, name)?;
         let before = meshed(&picture, EDGE, 0)?;
         let after = meshed(&picture, EDGE, ITERATIONS)?;
-        for (iteration, step) in after.steps.iter().enumerate() {
-            rows.push(row(name, iteration, step));
-        }
-        let dots = after.steps.iter().enumerate().map(|(iteration, step)| Dot {
-            x: iteration as f64,
-            y: step.worst_radius_to_edge,
-            title: format!("{name}, iteration {iteration}\nworst R/l {:.3}", step.worst_radius_to_edge),
-            ..Dot::default()
+        rows.extend(after.steps.iter().enumerate().map(|(iteration, step)| (name, iteration, *step)));
+        let dots = after.steps.iter().enumerate().map(|(iteration, step)| {
+            let title = format!("{name}, iteration {iteration}\nworst R/l {:.3}", step.worst_radius_to_edge);
+            Dot::new(iteration as f64, step.worst_radius_to_edge, title)
         });
-        series.push(Series {
-            name: name.to_owned(),
-            colour: number,
-            shape: number,
-            is_joined: true,
-            has_dots: true,
-            dots: dots.collect(),
-            ..Series::default()
-        });
+        series.push(Series::joined(name, (number, number), dots));
         marks.extend(judge(name, &before, &after));
     }
     let mut chart = Chart::new(
@@ -56,42 +44,33 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
         Guide::Horizontal(1.0 / 3.0_f64.sqrt(), "equilateral, 0.577".to_owned()),
         Guide::Vertical(THEIRS as f64, "the thesis' iterations".to_owned()),
     ];
-    Ok(Part {
-        name: "mesh",
-        title: "Quality of the triangles",
-        text: format!(
-            "Circumradius over shortest edge, R/l = 1/(2 sin θ) of the smallest angle θ, for edges of {EDGE} m and a height of 1 m. The thesis gives \
-             about 0.5 for the best triangle, which no triangle has: an equilateral one has 0.577. It leaves triangles of R/l > 3 out at the end and has the factor \
-             1/4 of space in its energy; here nothing is left out, and boundary points slide along the contour. Only corners of triangles with \
-             R/l > 0.7 move once the median is below 0.6, which ends the iterations early."
-        ),
-        marks,
-        tables: vec![Table {
-            name: "flat-mesh".to_owned(),
-            head: vec![
-                "object",
-                ">iteration",
-                ">smallest angle (°)",
-                ">R/l median",
-                ">R/l 99 %",
-                ">R/l worst",
-                ">energy",
-            ],
-            rows,
-        }],
-        figures: vec![Figure {
-            name: "flat-mesh".to_owned(),
-            picture: chart.draw(),
-            caption: "The worst triangle of each object.".to_owned(),
-        }],
-    })
+    let text = format!(
+        "Circumradius over shortest edge, R/l = 1/(2 sin θ) of the smallest angle θ, for edges of {EDGE} m and a height of 1 m. The thesis gives \
+         about 0.5 for the best triangle, which no triangle has: an equilateral one has 0.577. It leaves triangles of R/l > 3 out at the end and has the factor \
+         1/4 of space in its energy; here nothing is left out, and boundary points slide along the contour. Only corners of triangles with \
+         R/l > 0.7 move once the median is below 0.6, which ends the iterations early."
+    );
+    Ok(Part::new(text).marks(marks).tables([table(&rows)]).chart(
+        "flat-mesh",
+        &chart,
+        "The worst triangle of each object.",
+    ))
 }
 
-fn row(name: &str, iteration: usize, step: &OdtStep) -> Vec<String> {
-    let OdtStep { energy, smallest_angle, median_radius_to_edge, radius_to_edge_99, worst_radius_to_edge } = *step;
-    let numbers = [median_radius_to_edge, radius_to_edge_99, worst_radius_to_edge].map(|ratio| format!("{ratio:.4}"));
-    let first = [name.to_owned(), iteration.to_string(), format!("{smallest_angle:.2}")];
-    first.into_iter().chain(numbers).chain([format!("{energy:.10e}")]).collect()
+fn table(rows: &[(&str, usize, OdtStep)]) -> Table {
+    Table::of(
+        "flat-mesh",
+        rows,
+        &[
+            ("object", &|(name, ..)| (*name).to_owned()),
+            (">iteration", &|(_, iteration, _)| iteration.to_string()),
+            (">smallest angle (°)", &|(.., step)| format!("{:.2}", step.smallest_angle)),
+            (">R/l median", &|(.., step)| format!("{:.4}", step.median_radius_to_edge)),
+            (">R/l 99 %", &|(.., step)| format!("{:.4}", step.radius_to_edge_99)),
+            (">R/l worst", &|(.., step)| format!("{:.4}", step.worst_radius_to_edge)),
+            (">energy", &|(.., step)| format!("{:.10e}", step.energy)),
+        ],
+    )
 }
 
 fn judge(name: &str, before: &PictureMesh, after: &PictureMesh) -> Vec<Mark> {

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use fem_model::simulation::Diagnostics;
 
-use super::simulation::{simulation, step};
-use crate::experiments::{Mark, Part, Table};
+use crate::scenes::{double, step};
+use crate::study::{Mark, Part, Table};
 
 /// Young's modulus, Pa.
 pub const YOUNG: f64 = 1e5;
@@ -30,21 +30,12 @@ pub fn run(_: &Path, _: bool) -> Result<Part, String> {
         let mark = Mark::new(statement, format!("{found:.12} E"), (found - 1.0).abs() <= 1e-10);
         marks.push(mark.beside("0.6667 E"));
     }
-    Ok(Part {
-        name: "modulus",
-        title: "Stiffness of a strip",
-        text: format!(
-            "A strip of 2 × 1 m with ν = 0 is stretched by {STRAIN:e}; its modulus is the reaction over area and strain. The thesis divides the forces of a \
-             triangle among its nodes by 3 in place of 2, so that its bodies are a third too soft."
-        ),
-        marks,
-        tables: vec![Table {
-            name: "flat-modulus".to_owned(),
-            head: vec!["law", ">thesis, over E", ">here, over E", ">error"],
-            rows,
-        }],
-        figures: Vec::new(),
-    })
+    let text = format!(
+        "A strip of 2 × 1 m with ν = 0 is stretched by {STRAIN:e}; its modulus is the reaction over area and strain. The thesis divides the forces of a \
+         triangle among its nodes by 3 in place of 2, so that its bodies are a third too soft."
+    );
+    let head = ["law", ">thesis, over E", ">here, over E", ">error"];
+    Ok(Part::new(text).marks(marks).tables([Table::new("flat-modulus", &head, rows)]))
 }
 
 /// The modulus of a strip of a law, Pa.
@@ -61,7 +52,7 @@ pub fn modulus(model: &str) -> Result<f64, String> {
         end("min", 0.0),
         end("max", 2.0 * STRAIN)
     );
-    let mut simulation = simulation(&text, None)?;
+    let mut simulation = double(&text, None)?;
     step(&mut simulation)?;
     // The strip is 1 m high and 1 m thick.
     Ok(simulation.reactions()[1].force[0] / STRAIN)

@@ -7,7 +7,7 @@ use fem_mesh::SurfaceMesh;
 use fem_mesh::generate::picture::{FromPicture, Picture, PictureMesh, mesh_picture, read_picture};
 use fem_model::BodyMesh;
 
-use super::simulation::simulation;
+use crate::scenes::double;
 
 /// The objects, each a picture in `data/pictures`.
 pub const OBJECTS: [&str; 5] = ["donut", "armadillo", "bunny", "triangle", "square"];
@@ -35,7 +35,7 @@ pub fn simulator(mesh: &PictureMesh, lame: f64, method: &str, rest: &str) -> Res
     );
     let vertices = mesh.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
     let triangles = SurfaceMesh::new(vertices, mesh.mesh.elements.clone());
-    simulation(&text, Some(BodyMesh::flat(triangles, 1.0)))
+    double(&text, Some(BodyMesh::flat(triangles, 1.0)))
 }
 
 /// Displacements of a few parts in a million of the height in which every vibration takes part: multiples of the golden ratio, modulo 1.

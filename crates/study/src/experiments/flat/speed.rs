@@ -7,7 +7,7 @@ use fem_chart::{Axis, Chart, Dot, Guide, Series};
 use fem_model::simulation::Simulation;
 
 use super::object::{LAME, disturb, meshed, picture, simulator};
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::study::{Mark, Part, Table};
 
 /// Substeps of a frame, and their time in the thesis, ms.
 const SUBSTEPS: usize = 40;
@@ -54,37 +54,26 @@ fn timed(data: &Path, quick: bool) -> Result<Part, String> {
             format!("{:.0}", 1e6 * median / SUBSTEPS as f64 / triangles),
         ]);
         let title = format!("{triangles} triangles\n{median:.3} ms a frame");
-        dots.push(Dot { x: triangles, y: median, title, ..Dot::default() });
+        dots.push(Dot::new(triangles, median, title));
     }
     let mut chart =
         Chart::new("time of a frame of 40 substeps", Axis::log("triangles"), Axis::log("time of a frame (ms)"));
-    chart.series = vec![Series { is_joined: true, has_dots: true, dots, ..Series::default() }];
+    chart.series = vec![Series::joined("", (0, 0), dots)];
     chart.guides = vec![
         Guide::Horizontal(THEIRS, "the thesis, 58.8 ms".to_owned()),
         Guide::Horizontal(0.1 * THEIRS, "a tenth of it".to_owned()),
     ];
     let statement = format!("a frame of {SUBSTEPS} substeps of about {JUDGED} triangles under a tenth of {THEIRS} ms");
-    let mark = Mark {
-        holds: (!quick).then_some(judged < 0.1 * THEIRS),
-        ..Mark::new(statement, format!("{judged:.2} ms"), true).beside("58.8 ms")
-    };
-    Ok(Part {
-        name: "speed",
-        title: "Time of a frame",
-        text: format!(
-            "The donut in corotated elasticity by semi-implicit Euler with lumped mass, {SUBSTEPS} substeps a frame, on one thread. The thesis gives 1.47 ms \
-             a substep and 17 frames a second, without the number of its triangles."
-        ),
-        marks: vec![mark],
-        tables: vec![Table {
-            name: "flat-speed".to_owned(),
-            head: vec![">triangles", ">ms a frame", ">µs a substep", ">ns a substep and triangle"],
-            rows,
-        }],
-        figures: vec![Figure {
-            name: "flat-speed".to_owned(),
-            picture: chart.draw(),
-            caption: "Median of the frames, on one thread.".to_owned(),
-        }],
-    })
+    let mark = Mark::new(statement, format!("{judged:.2} ms"), judged < 0.1 * THEIRS).beside("58.8 ms").unless(quick);
+    let text = format!(
+        "The donut in corotated elasticity by semi-implicit Euler with lumped mass, {SUBSTEPS} substeps a frame, on one thread. The thesis gives 1.47 ms \
+         a substep and 17 frames a second, without the number of its triangles."
+    );
+    let head = [">triangles", ">ms a frame", ">µs a substep", ">ns a substep and triangle"];
+    let table = Table::new("flat-speed", &head, rows);
+    Ok(Part::new(text).marks([mark]).tables([table]).chart(
+        "flat-speed",
+        &chart,
+        "Median of the frames, on one thread.",
+    ))
 }

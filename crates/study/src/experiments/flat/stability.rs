@@ -7,7 +7,7 @@ use fem_mesh::generate::picture::PictureMesh;
 use fem_model::simulation::{Diagnostics, Simulation};
 
 use super::object::{LAME, OBJECTS, disturb, meshed, picture, simulator};
-use crate::experiments::{Mark, Part, Table};
+use crate::study::{Mark, Part, Table};
 
 /// Frames in a second, frames of a stable run, and frames after which growth must show.
 const FRAMES: f64 = 60.0;
@@ -64,39 +64,20 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
         }
     }
     let runs = rows.len();
-    Ok(Part {
-        name: "stability",
-        title: "Substeps of explicit integration",
-        text: format!(
-            "Semi-implicit Euler with lumped mass at {FRAMES} frames a second is stable for dt ≤ (2/ω)(√(1+ξ²) − ξ), with the largest frequency ω and its \
-             damping ratio ξ. The damped rows have ξ = {RATIO} there. The thesis finds by trial that 10 substeps explode and 40 do not for λ = μ = 45 000 Pa, and \
-             its damping makes it worse. Bodies are 1 m high with edges of {EDGE} m; N is the predicted number of substeps. Every run starts with a disturbance of {DISTURBANCE:e} m and takes {RUN} frames; N − 1 is at the limit where its growth would not show within {LONG_RUN}."
-        ),
-        marks: vec![
-            Mark::new(
-                format!("in all {runs} rows N substeps live, and in the {judged} not at the limit N − 1 explode"),
-                if wrong.is_empty() { "as predicted".to_owned() } else { wrong.join("; ") },
-                wrong.is_empty(),
-            )
-            .beside("by trial: 10 explode, 40 live"),
-            Mark::new("implicit Euler lives with one substep", format!("{implicit} explode"), implicit == 0),
-        ],
-        tables: vec![Table {
-            name: "flat-stability".to_owned(),
-            head: vec![
-                "object",
-                ">triangles",
-                ">λ = μ (Pa)",
-                "damping",
-                ">stable dt (ms)",
-                ">N",
-                "N substeps",
-                "N − 1 substeps",
-            ],
-            rows,
-        }],
-        figures: Vec::new(),
-    })
+    let text = format!(
+        "Semi-implicit Euler with lumped mass at {FRAMES} frames a second is stable for dt ≤ (2/ω)(√(1+ξ²) − ξ), with the largest frequency ω and its \
+         damping ratio ξ. The damped rows have ξ = {RATIO} there. The thesis finds by trial that 10 substeps explode and 40 do not for λ = μ = 45 000 Pa, and \
+         its damping makes it worse. Bodies are 1 m high with edges of {EDGE} m; N is the predicted number of substeps. Every run starts with a disturbance of {DISTURBANCE:e} m and takes {RUN} frames; N − 1 is at the limit where its growth would not show within {LONG_RUN}."
+    );
+    let statement = format!("in all {runs} rows N substeps live, and in the {judged} not at the limit N − 1 explode");
+    let ours = if wrong.is_empty() { "as predicted".to_owned() } else { wrong.join("; ") };
+    let marks = [
+        Mark::new(statement, ours, wrong.is_empty()).beside("by trial: 10 explode, 40 live"),
+        Mark::new("implicit Euler lives with one substep", format!("{implicit} explode"), implicit == 0),
+    ];
+    let head =
+        ["object", ">triangles", ">λ = μ (Pa)", "damping", ">stable dt (ms)", ">N", "N substeps", "N − 1 substeps"];
+    Ok(Part::new(text).marks(marks).tables([Table::new("flat-stability", &head, rows)]))
 }
 
 fn method(name: &str, substeps: usize) -> String {

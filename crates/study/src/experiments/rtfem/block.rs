@@ -2,7 +2,8 @@
 
 use fem_mesh::{Pattern, box_mesh};
 
-use super::setting::{Setting, displacements, simulation, step};
+use super::setting::{Setting, displacements};
+use crate::scenes::{simulation, step};
 
 /// Stretches of a cube of side 1 m with free sides under a dead load (Pa, positive in tension): along the load and across it.
 ///

@@ -5,9 +5,10 @@ use std::path::Path;
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
 use fem_mesh::volumes;
 
-use super::setting::{BETA, DT, DURATION, LAWS, Setting, difference, displacements, equilibrium, squash, step};
+use super::setting::{BETA, DT, DURATION, LAWS, Setting, difference, displacements, equilibrium, squash};
 use super::torus::{Torus, sizes};
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::scenes::step;
+use crate::study::{Mark, Part, Table};
 
 /// Distance from equilibrium, over the diameter, at which a motion has ended, and the time (s) at which it must have.
 const ENDED: f64 = 1e-8;
@@ -44,41 +45,19 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     let flexibility = approach / load;
     let elements = reference.mesh.elements.len();
     let error = |of: &Found| of.squashes[0] / of.load / flexibility - 1.0;
-    let rows = found.iter().map(|of| row(of, error(of))).collect();
-    Ok(Part {
-        name: "equilibrium",
-        title: "The end of the motion",
-        text: format!(
-            "With β = {BETA} s every elastic vibration is overdamped: the distance from equilibrium falls by 1 + dt/β in each step, so that 0.25 % of it are left \
-             after 15 s. The torus of the thesis is still moving then. The runs go on until {ENDED:e} of the diameter are left. The error of a mesh is that of \
-             its flexibility, the approach of the loaded sides over their load, against a mesh of {elements} tetrahedra whose edges are {finer} times shorter than those of the \
-             largest torus here. Linear tetrahedra are too stiff in bending; few of them across the tube cost most of the deflection."
-        ),
-        marks: found.iter().flat_map(marks).chain(near(&found, &error)).collect(),
-        tables: vec![Table {
-            name: "rtfem-equilibrium".to_owned(),
-            head: vec![
-                ">elements",
-                ">nodes",
-                ">volume (m³)",
-                ">load (N)",
-                ">left after 15 s (%)",
-                ">closed form (%)",
-                ">ended after (s)",
-                ">distance from static, over diameter",
-                ">approach, linear (m)",
-                ">corotated over linear",
-                ">neo-Hookean over linear",
-                ">error of the flexibility (%)",
-            ],
-            rows,
-        }],
-        figures: vec![Figure {
-            name: "rtfem-error".to_owned(),
-            picture: chart(&found, &error).draw(),
-            caption: "Part of the flexibility that a mesh lacks.".to_owned(),
-        }],
-    })
+    let text = format!(
+        "With β = {BETA} s every elastic vibration is overdamped: the distance from equilibrium falls by 1 + dt/β in each step, so that 0.25 % of it are left \
+         after 15 s. The torus of the thesis is still moving then. The runs go on until {ENDED:e} of the diameter are left. The error of a mesh is that of \
+         its flexibility, the approach of the loaded sides over their load, against a mesh of {elements} tetrahedra whose edges are {finer} times shorter than those of the \
+         largest torus here. Linear tetrahedra are too stiff in bending; few of them across the tube cost most of the deflection."
+    );
+    let marks = found.iter().flat_map(marks).chain(near(&found, &error));
+    let caption = "Part of the flexibility that a mesh lacks.";
+    Ok(Part::new(text).marks(marks).tables([table(&found, &error)]).chart(
+        "rtfem-error",
+        &chart(&found, &error),
+        caption,
+    ))
 }
 
 /// Part of the distance that is left after 15 s: the mass is negligible, so that β K u̇ + K u = f.
@@ -132,35 +111,39 @@ fn near(found: &[Found], error: &dyn Fn(&Found) -> f64) -> Option<Mark> {
     Some(Mark::new(statement, ours, after.abs() <= FLEXIBILITY))
 }
 
-fn row(of: &Found, error: f64) -> Vec<String> {
-    let mesh = &of.torus.mesh;
-    vec![
-        mesh.elements.len().to_string(),
-        mesh.vertices.len().to_string(),
-        format!("{:.4}", volumes(mesh).iter().sum::<f64>()),
-        format!("{:.3}", of.load),
-        format!("{:.4}", 100.0 * of.remainder / of.whole),
-        format!("{:.4}", 100.0 * closed_form()),
-        format!("{:.2}", of.time),
-        format!("{:.2e}", of.last),
-        format!("{:.6e}", of.squashes[0]),
-        format!("{:.5}", of.squashes[1] / of.squashes[0]),
-        format!("{:.5}", of.squashes[2] / of.squashes[0]),
-        format!("{:+.2}", 100.0 * error),
-    ]
+fn table(found: &[Found], error: &dyn Fn(&Found) -> f64) -> Table {
+    let over_linear = |of: &Found, law: usize| format!("{:.5}", of.squashes[law] / of.squashes[0]);
+    Table::of(
+        "rtfem-equilibrium",
+        found,
+        &[
+            (">elements", &|of| of.torus.mesh.elements.len().to_string()),
+            (">nodes", &|of| of.torus.mesh.vertices.len().to_string()),
+            (">volume (m³)", &|of| format!("{:.4}", volumes(&of.torus.mesh).iter().sum::<f64>())),
+            (">load (N)", &|of| format!("{:.3}", of.load)),
+            (">left after 15 s (%)", &|of| format!("{:.4}", 100.0 * of.remainder / of.whole)),
+            (">closed form (%)", &|_| format!("{:.4}", 100.0 * closed_form())),
+            (">ended after (s)", &|of| format!("{:.2}", of.time)),
+            (">distance from static, over diameter", &|of| format!("{:.2e}", of.last)),
+            (">approach, linear (m)", &|of| format!("{:.6e}", of.squashes[0])),
+            (">corotated over linear", &|of| over_linear(of, 1)),
+            (">neo-Hookean over linear", &|of| over_linear(of, 2)),
+            (">error of the flexibility (%)", &|of| format!("{:+.2}", 100.0 * error(of))),
+        ],
+    )
 }
 
 fn chart(found: &[Found], error: &dyn Fn(&Found) -> f64) -> Chart {
     let mut chart = Chart::new("error of the flexibility", Axis::log("elements"), Axis::log("error (%)"));
     let dot = |of: &Found| {
         let (x, y) = (of.torus.mesh.elements.len() as f64, 100.0 * error(of).abs());
-        Dot { x, y, title: format!("{x} elements\n{y:.2} %"), ..Dot::default() }
+        Dot::new(x, y, format!("{x} elements\n{y:.2} %"))
     };
     let dots: Vec<Dot> = found.iter().map(dot).collect();
     if let Some(last) = dots.last() {
         let name = "second order in the edge".to_owned();
         chart.guides.push(Guide::Slope { through: (last.x, last.y), slope: -2.0 / 3.0, name });
     }
-    chart.series.push(Series { is_joined: true, has_dots: true, dots, ..Series::default() });
+    chart.series.push(Series::joined("", (0, 0), dots));
     chart
 }

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use fem_chart::{Axis, Chart, Dot, Series};
+use fem_chart::{Axis, Chart, Series};
 
 use super::block::{closed_form, computed};
 use super::setting::{LAWS, POISSON, Setting, TRACTION, YOUNG, equilibrium, squash};
 use super::torus::Torus;
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::study::{Mark, Part, Table};
 
 /// Young's moduli, Pa, and Poisson's ratios.
 const YOUNGS: [f64; 4] = [3500.0, 7000.0, 7e4, 7e6];
@@ -23,65 +23,42 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     let (stiffnesses, of_young) = by_young(&torus)?;
     let (ratios, of_poisson) = by_poisson(&torus, if quick { 2.0 } else { 4.0 })?;
     marks.extend(of_young.into_iter().chain(of_poisson));
-    let chart = chart(&stiffnesses);
-    let text = |rows: Vec<[f64; 5]>, digits: &dyn Fn(f64) -> String| {
-        rows.iter().map(|row| row.iter().map(|&x| digits(x)).collect()).collect::<Vec<Vec<String>>>()
+    let text = format!(
+        "The thesis announces several materials and shows one. A block with free sides under {TRACTION} Pa has stretches in closed form for each law. The torus, \
+         {} tetrahedra: at {YOUNG} Pa and more the strains are small enough for the linear law; at 3500 Pa they are not. For ν near ½ linear tetrahedra lock, as the \
+         error against a finer mesh shows, which locks less.",
+        torus.mesh.elements.len()
+    );
+    let of_numbers = |name: &str, head: [&str; 5], rows: &[[f64; 5]], digits: &dyn Fn(f64) -> String| {
+        Table::new(name, &head, rows.iter().map(|row| row.iter().map(|&x| digits(x)).collect()).collect())
     };
-    Ok(Part {
-        name: "materials",
-        title: "Materials",
-        text: format!(
-            "The thesis announces several materials and shows one. A block with free sides under {TRACTION} Pa has stretches in closed form for each law. The torus, \
-             {} tetrahedra: at {YOUNG} Pa and more the strains are small enough for the linear law; at 3500 Pa they are not. For ν near ½ linear tetrahedra lock, as the \
-             error against a finer mesh shows, which locks less.",
-            torus.mesh.elements.len()
-        ),
-        marks,
-        tables: vec![
-            Table {
-                name: "rtfem-block".to_owned(),
-                head: vec![
-                    "law",
-                    ">E (Pa)",
-                    ">ν",
-                    ">load (Pa)",
-                    ">stretch along, closed form",
-                    ">here",
-                    ">stretch across, closed form",
-                    ">here",
-                    ">error",
-                ],
-                rows: blocks,
-            },
-            Table {
-                name: "rtfem-young".to_owned(),
-                head: vec![
-                    ">E (Pa)",
-                    ">approach, linear (m)",
-                    ">corotated (m)",
-                    ">neo-Hookean (m)",
-                    ">E × linear approach (N/m)",
-                ],
-                rows: text(stiffnesses.clone(), &|x| format!("{x:.6e}")),
-            },
-            Table {
-                name: "rtfem-poisson".to_owned(),
-                head: vec![
-                    ">ν",
-                    ">approach, linear (m)",
-                    ">corotated over linear",
-                    ">neo-Hookean over linear",
-                    ">error of the flexibility, linear (%)",
-                ],
-                rows: text(ratios, &|x| format!("{x:.5}")),
-            },
-        ],
-        figures: vec![Figure {
-            name: "rtfem-materials".to_owned(),
-            picture: chart.draw(),
-            caption: "Approach of the loaded sides over that of the linear law.".to_owned(),
-        }],
-    })
+    let of_blocks = [
+        "law",
+        ">E (Pa)",
+        ">ν",
+        ">load (Pa)",
+        ">stretch along, closed form",
+        ">here",
+        ">stretch across, closed form",
+        ">here",
+        ">error",
+    ];
+    let by_young =
+        [">E (Pa)", ">approach, linear (m)", ">corotated (m)", ">neo-Hookean (m)", ">E × linear approach (N/m)"];
+    let by_poisson = [
+        ">ν",
+        ">approach, linear (m)",
+        ">corotated over linear",
+        ">neo-Hookean over linear",
+        ">error of the flexibility, linear (%)",
+    ];
+    let tables = [
+        Table::new("rtfem-block", &of_blocks, blocks),
+        of_numbers("rtfem-young", by_young, &stiffnesses, &|x| format!("{x:.6e}")),
+        of_numbers("rtfem-poisson", by_poisson, &ratios, &|x| format!("{x:.5}")),
+    ];
+    let caption = "Approach of the loaded sides over that of the linear law.";
+    Ok(Part::new(text).marks(marks).tables(tables).chart("rtfem-materials", &chart(&stiffnesses), caption))
 }
 
 fn blocks() -> Result<(Vec<Vec<String>>, Vec<Mark>), String> {
@@ -148,10 +125,9 @@ fn by_poisson(torus: &Torus, finer: f64) -> Result<(Vec<[f64; 5]>, Vec<Mark>), S
     }
     let (least, most) = (rows[0][4], rows[rows.len() - 1][4]);
     let statement = "linear tetrahedra lock: the flexibility lacks more at ν = 0.49 than at 0";
-    let mut mark = Mark::new(statement, format!("{least:+.1} % → {most:+.1} %"), most < least && least < 0.0);
+    let mark = Mark::new(statement, format!("{least:+.1} % → {most:+.1} %"), most < least && least < 0.0);
     // A mesh that is only twice as fine has another surface, whose effect is larger than that of locking.
-    mark.holds = mark.holds.filter(|_| finer >= 4.0);
-    Ok((rows, vec![mark]))
+    Ok((rows, vec![mark.unless(finer < 4.0)]))
 }
 
 fn approaches(torus: &Torus, young: f64, poisson: f64) -> Result<[f64; 3], String> {
@@ -167,17 +143,9 @@ fn chart(rows: &[[f64; 5]]) -> Chart {
     let mut chart =
         Chart::new("laws beside the linear one", Axis::log("load over E (%)"), Axis::linear("approach over linear"));
     chart.series = (1..=3)
-        .map(|law| Series {
-            name: LAWS[law - 1].to_owned(),
-            colour: law,
-            shape: law,
-            is_joined: true,
-            has_dots: true,
-            dots: rows
-                .iter()
-                .map(|row| Dot { x: 100.0 * TRACTION / row[0], y: row[law] / row[1], ..Dot::default() })
-                .collect(),
-            ..Series::default()
+        .map(|law| {
+            let dots = rows.iter().map(|row| (100.0 * TRACTION / row[0], row[law] / row[1]));
+            Series::joined(LAWS[law - 1], (law, law), dots)
         })
         .collect();
     chart

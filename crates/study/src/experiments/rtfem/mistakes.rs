@@ -2,17 +2,16 @@
 
 use std::path::Path;
 
-use fem_engine::simulator::Simulator;
 use fem_mesh::{Pattern, box_mesh};
 use fem_model::simulation::Simulation;
-use fem_scene::{body_of, parse};
 use nalgebra::Vector3;
 
 use super::dense::{elasticity, solve, stiffness};
-use super::setting::{POISSON, Setting, YOUNG, equilibrium, loads, simulation, squash, supports};
+use super::setting::{POISSON, Setting, YOUNG, equilibrium, loads, squash, supports};
 use super::torus::Torus;
-use crate::experiments::Part;
 use crate::experiments::mistake::{Mistake, marks, table};
+use crate::scenes::{REPLACED, double, simulation};
+use crate::study::Part;
 
 /// Shear diagonals of the elasticity matrix in its common factor: printed in the thesis, and right.
 const PRINTED: f64 = 1.0 - 2.0 * POISSON;
@@ -21,17 +20,10 @@ const RIGHT: f64 = 0.5 * PRINTED;
 /// Computes them.
 pub fn run(_: &Path, _: bool) -> Result<Part, String> {
     let found = [sheared_cube()?, torus()?, turning_body()?];
-    Ok(Part {
-        name: "mistakes",
-        title: "Each mistake, with its figures",
-        text: "The thesis prints an elasticity matrix with 1 − 2ν on its shear diagonal beside engineering shear strains, which doubles the shear modulus. The stiffness \
-               V Bᵀ C B with this matrix, and with the right one, (1 − 2ν)/2, is programmed in a few lines with dense matrices; the latter is also a reference for the engine. \
-               The linear strain of a rotation is not zero: a free body that turns by an angle ωt in the linear law grows by √(1 + (ωt)²), since its nodes go straight on."
-            .to_owned(),
-        marks: marks(&found),
-        tables: vec![table("rtfem-mistakes", &found)],
-        figures: Vec::new(),
-    })
+    let text = "The thesis prints an elasticity matrix with 1 − 2ν on its shear diagonal beside engineering shear strains, which doubles the shear modulus. The stiffness \
+                V Bᵀ C B with this matrix, and with the right one, (1 − 2ν)/2, is programmed in a few lines with dense matrices; the latter is also a reference for the engine. \
+                The linear strain of a rotation is not zero: a free body that turns by an angle ωt in the linear law grows by √(1 + (ωt)²), since its nodes go straight on.";
+    Ok(Part::new(text).marks(marks(&found)).tables([table("rtfem-mistakes", &found)]))
 }
 
 /// Shear modulus of a cube whose nodes have the displacement γ y along x.
@@ -46,10 +38,7 @@ fn sheared_cube() -> Result<Mistake, String> {
     };
     let K = stiffness(&mesh, &elasticity(YOUNG, POISSON, PRINTED));
     let f = K * nalgebra::DVector::from_iterator(3 * moved.len(), moved.iter().flatten().copied());
-    let scene = parse(&Setting::default().text(), Path::new("rtfem.toml")).map_err(|error| error.to_string())?;
-    let body = body_of(&scene, mesh.clone(), Path::new("")).map_err(|error| error.to_string())?;
-    let mut cube =
-        Simulator::<f64>::new(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())?;
+    let mut cube = double(&Setting::default().text(), Some(mesh.clone().into()))?;
     cube.set_state(&moved, &vec![[0.0; 3]; moved.len()]);
     let own = cube.nodal_forces().ok_or("the engine has no nodal forces")?;
     let truth = YOUNG / (2.0 * (1.0 + POISSON));
@@ -101,10 +90,9 @@ fn turning_body() -> Result<Mistake, String> {
 
 fn turned(law: &str) -> Result<f64, String> {
     let mesh = box_mesh([2.0, 0.5, 0.5], 2, Pattern::Kuhn).map_err(|error| error.to_string())?;
-    let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"{law}\"\nyoung = 1e8\npoisson = {POISSON}\n\
-         density = 1000\n[time]\nintegrator = \"verlet\"\ndt = 2e-4\n[[initial_velocity]]\nangular = {{ axis = [0, 0, 1], rate = 1 }}\n"
-    );
+    let material = format!("model = \"{law}\"\nyoung = 1e8\npoisson = {POISSON}\ndensity = 1000");
+    let spin = "[[initial_velocity]]\nangular = { axis = [0, 0, 1], rate = 1 }\n";
+    let text = crate::scenes::text(REPLACED, &material, "integrator = \"verlet\"\ndt = 2e-4", spin);
     let mut bar = simulation(&text, mesh.clone())?;
     for _ in 0..5000 {
         bar.step().map_err(|failure| failure.to_string())?;

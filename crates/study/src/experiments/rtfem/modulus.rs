@@ -6,8 +6,9 @@ use fem_chart::{Axis, Chart, Dot, Guide, Series};
 use fem_model::simulation::Simulation;
 
 use super::methods::block;
-use super::setting::{one_thread, simulation, step};
-use crate::experiments::{Figure, Mark, Part, Table};
+use super::setting::one_thread;
+use crate::scenes::{simulation, step};
+use crate::study::{Figure, Mark, Part, Table};
 
 /// Length of the bar, m; its cross-section is 1 m².
 const LENGTH: f64 = 2.0;
@@ -72,15 +73,8 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
         found.iter().filter(|hung| !hung.is_still).count(),
         found.len()
     );
-    let marks = marks(&found);
-    Ok(Part {
-        name: "modulus",
-        title: "Stiffness by iterations",
-        text,
-        marks,
-        tables: vec![table(&found)],
-        figures: youngs.iter().map(|(young, _)| figure(&found, *young)).collect(),
-    })
+    let figures = youngs.iter().map(|(young, _)| figure(&found, *young));
+    Ok(Part::new(text).marks(marks(&found)).tables([table(&found)]).figures(figures))
 }
 
 /// Ranges of the sweep.
@@ -186,20 +180,17 @@ fn table(found: &[Hung]) -> Table {
         let name = [format!("{:e}", first.young), format!("1/{}", first.rate), first.iterations.to_string()];
         name.into_iter().chain(found.iter().filter(is_same).map(cell)).collect()
     };
-    Table {
-        name: "rtfem-modulus".to_owned(),
-        head: vec![
-            ">E (Pa)",
-            ">dt (s)",
-            ">iterations a step",
-            ">PBD, over E",
-            ">XPBD, over E",
-            ">XPBD without residual, over E",
-            ">VBD, over E",
-            ">PD, over E",
-        ],
-        rows: found.iter().filter(|hung| hung.method == 0).map(row).collect(),
-    }
+    let head = [
+        ">E (Pa)",
+        ">dt (s)",
+        ">iterations a step",
+        ">PBD, over E",
+        ">XPBD, over E",
+        ">XPBD without residual, over E",
+        ">VBD, over E",
+        ">PD, over E",
+    ];
+    Table::new("rtfem-modulus", &head, found.iter().filter(|hung| hung.method == 0).map(row).collect())
 }
 
 /// Every method at the usual time step, PBD at all of them.
@@ -216,17 +207,8 @@ fn figure(found: &[Hung], young: f64) -> Figure {
     for (method, (name, ..)) in METHODS.iter().enumerate() {
         for (number, &rate) in rates.iter().enumerate().filter(|(_, rate)| shown(method, **rate)) {
             let of_line = found.iter().filter(|hung| (hung.method, hung.young, hung.rate) == (method, young, rate));
-            let dot =
-                |hung: &Hung| Dot { x: hung.iterations as f64, y: hung.modulus, title: cell(hung), ..Dot::default() };
-            chart.series.push(Series {
-                name: format!("{name}, 1/{rate} s"),
-                colour: method + 1,
-                shape: number,
-                is_joined: true,
-                has_dots: true,
-                dots: of_line.map(dot).collect(),
-                ..Series::default()
-            });
+            let dots = of_line.map(|hung| Dot::new(hung.iterations as f64, hung.modulus, cell(hung)));
+            chart.series.push(Series::joined(format!("{name}, 1/{rate} s"), (method + 1, number), dots));
         }
     }
     chart.guides.push(Guide::Horizontal(1.0, "the modulus of the material".to_owned()));

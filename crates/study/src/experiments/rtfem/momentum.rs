@@ -6,8 +6,8 @@ use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::methods::block;
-use super::setting::simulation;
-use crate::experiments::{Mark, Part, Table};
+use crate::scenes::simulation;
+use crate::study::{Mark, Part, Table};
 
 const DENSITY: f64 = 1000.0;
 const CELLS: [usize; 3] = [4, 2, 2];
@@ -83,31 +83,23 @@ struct Drift {
 /// A free beam flies and turns for a second.
 pub fn run(_: &Path, _: bool) -> Result<Part, String> {
     let found = METHODS.iter().map(|method| Ok((method, drift(method)?))).collect::<Result<Vec<_>, String>>()?;
-    let row = |(method, drift): &(&Method, Drift)| {
-        vec![
-            method.0.to_owned(),
-            method.4.words().to_owned(),
-            format!("{:.1e}", drift.linear),
-            format!("{:.1e}", drift.angular),
-        ]
-    };
-    Ok(Part {
-        name: "momentum",
-        title: "Momentum of a free body",
-        text: format!(
-            "A free beam of 2 × 1 × 1 m (corotated law or springs, E = 1e5 Pa, lumped mass) flies at 1 m/s and turns at 2 rad/s for {STEPS} steps of 1/{RATE} s. Changes are those of \
-             Σ m v over Σ m |v| and of Σ m x × v over its size. Sweeps of PBD and XPBD move nodes by equal and opposite impulses, and PD sets the mean of a free body right \
-             after its rounds; steps of VBD move one node at a time, so that forces are equal and opposite only where sweeps have converged. Methods that take the velocity from \
-             the change of the positions lose angular momentum like implicit Euler, which damps rotations."
-        ),
-        marks: found.iter().map(|(method, drift)| mark(method, drift)).collect(),
-        tables: vec![Table {
-            name: "rtfem-momentum".to_owned(),
-            head: vec!["method", "promises to keep", ">change of momentum", ">change of angular momentum"],
-            rows: found.iter().map(row).collect(),
-        }],
-        figures: Vec::new(),
-    })
+    let text = format!(
+        "A free beam of 2 × 1 × 1 m (corotated law or springs, E = 1e5 Pa, lumped mass) flies at 1 m/s and turns at 2 rad/s for {STEPS} steps of 1/{RATE} s. Changes are those of \
+         Σ m v over Σ m |v| and of Σ m x × v over its size. Sweeps of PBD and XPBD move nodes by equal and opposite impulses, and PD sets the mean of a free body right \
+         after its rounds; steps of VBD move one node at a time, so that forces are equal and opposite only where sweeps have converged. Methods that take the velocity from \
+         the change of the positions lose angular momentum like implicit Euler, which damps rotations."
+    );
+    let table = Table::of(
+        "rtfem-momentum",
+        &found,
+        &[
+            ("method", &|(method, _)| method.0.to_owned()),
+            ("promises to keep", &|(method, _)| method.4.words().to_owned()),
+            (">change of momentum", &|(_, drift)| format!("{:.1e}", drift.linear)),
+            (">change of angular momentum", &|(_, drift)| format!("{:.1e}", drift.angular)),
+        ],
+    );
+    Ok(Part::new(text).marks(found.iter().map(|(method, drift)| mark(method, drift))).tables([table]))
 }
 
 fn mark((name, .., promise): &Method, drift: &Drift) -> Mark {

@@ -6,9 +6,10 @@ use fem_chart::triangles;
 use fem_mesh::{TetrahedralMesh, boundary};
 use nalgebra::{Rotation3, Vector3};
 
-use super::setting::{DT, DURATION, LAWS, Setting, displacements, equilibrium, squash, step};
+use super::setting::{DT, DURATION, LAWS, Setting, displacements, equilibrium, squash};
 use super::torus::Torus;
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::scenes::step;
+use crate::study::{Figure, Mark, Part, Table};
 
 /// Factor on the displacements of the thesis' material, whose deflection is three hundredths of the diameter.
 const MAGNIFIED: f64 = 5.0;
@@ -48,22 +49,14 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     let narrower = approaches.iter().all(|approach| *approach > 0.0) && squash(mesh, &moved).0 > 0.0;
     let numbers =
         LAWS.iter().zip(&approaches).map(|(law, approach)| vec![(*law).to_owned(), format!("{approach:.5}")]).collect();
-    Ok(Part {
-        name: "picture",
-        title: "Pictures",
-        text: format!(
-            "{} tetrahedra, {} nodes. The thesis' editor shows the same body.",
-            mesh.elements.len(),
-            mesh.vertices.len()
-        ),
-        marks: vec![Mark::new("the loaded sides approach each other in every picture", "", narrower)],
-        tables: vec![Table {
-            name: "rtfem-soft".to_owned(),
-            head: vec!["law", ">approach at 2000 Pa (m)"],
-            rows: numbers,
-        }],
-        figures,
-    })
+    let text = format!(
+        "{} tetrahedra, {} nodes. The thesis' editor shows the same body.",
+        mesh.elements.len(),
+        mesh.vertices.len()
+    );
+    let mark = Mark::new("the loaded sides approach each other in every picture", "", narrower);
+    let table = Table::new("rtfem-soft", &["law", ">approach at 2000 Pa (m)"], numbers);
+    Ok(Part::new(text).marks([mark]).tables([table]).figures(figures))
 }
 
 /// The boundary with displacements times a factor. The torus' axis is turned towards the reader.

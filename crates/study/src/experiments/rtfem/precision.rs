@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use fem_chart::{Axis, Chart, Dot, Guide, Series};
+use fem_chart::{Axis, Chart, Guide, Series};
 use fem_model::simulation::Simulation;
 
 use super::setting::{DT, DURATION, LAWS, Setting, difference, displacements};
 use super::torus::{Torus, sizes};
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::study::{Mark, Part, Table};
 
 /// Largest difference at the end, over the diameter of the body.
 const LARGEST: f64 = 1e-5;
@@ -34,44 +34,32 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
             runs.push(compared("linear", &Torus::of_size(wanted)?, duration)?);
         }
     }
-    let marks = runs.iter().map(mark).collect();
-    let row = |run: &Run, sample: &[f64; 3]| {
-        let [time, difference, moved] = *sample;
-        let first = [run.law.to_owned(), run.elements.to_string(), format!("{time:.3}")];
-        first.into_iter().chain([difference, moved].map(|x| format!("{x:.3e}"))).collect()
-    };
-    let rows = runs.iter().flat_map(|run| run.samples.iter().map(move |sample| row(run, sample))).collect();
-    Ok(Part {
-        name: "precision",
-        title: "Single and double precision",
-        text: format!(
-            "The same torus, load and steps in single and in double precision. The difference is the largest distance between two positions of a node, over the \
-             diameter of the body, 2.92 m. Displacements are stored, not positions, so that digits are not lost to the size of the body. The thesis announces \
-             this comparison and does not show it. In single precision {}.",
-            if runs.iter().all(|run| run.unconverged == 0) {
-                "every step has converged"
-            } else {
-                "some steps have not converged"
-            }
-        ),
-        marks,
-        tables: vec![Table {
-            name: "rtfem-precision".to_owned(),
-            head: vec![
-                "law",
-                ">elements",
-                ">time (s)",
-                ">difference over diameter",
-                ">largest displacement over diameter",
-            ],
-            rows,
-        }],
-        figures: vec![Figure {
-            name: "rtfem-precision".to_owned(),
-            picture: chart(&runs[..LAWS.len()]).draw(),
-            caption: "Largest difference between single and double precision, over the diameter.".to_owned(),
-        }],
-    })
+    let marks: Vec<Mark> = runs.iter().map(mark).collect();
+    let text = format!(
+        "The same torus, load and steps in single and in double precision. The difference is the largest distance between two positions of a node, over the \
+         diameter of the body, 2.92 m. Displacements are stored, not positions, so that digits are not lost to the size of the body. The thesis announces \
+         this comparison and does not show it. In single precision {}.",
+        if runs.iter().all(|run| run.unconverged == 0) {
+            "every step has converged"
+        } else {
+            "some steps have not converged"
+        }
+    );
+    let rows: Vec<(&Run, [f64; 3])> =
+        runs.iter().flat_map(|run| run.samples.iter().map(move |sample| (run, *sample))).collect();
+    let table = Table::of(
+        "rtfem-precision",
+        &rows,
+        &[
+            ("law", &|(run, _)| run.law.to_owned()),
+            (">elements", &|(run, _)| run.elements.to_string()),
+            (">time (s)", &|(_, sample)| format!("{:.3}", sample[0])),
+            (">difference over diameter", &|(_, sample)| format!("{:.3e}", sample[1])),
+            (">largest displacement over diameter", &|(_, sample)| format!("{:.3e}", sample[2])),
+        ],
+    );
+    let caption = "Largest difference between single and double precision, over the diameter.";
+    Ok(Part::new(text).marks(marks).tables([table]).chart("rtfem-precision", &chart(&runs[..LAWS.len()]), caption))
 }
 
 /// One run in both precisions, step by step.
@@ -114,13 +102,7 @@ fn chart(runs: &[Run]) -> Chart {
     chart.series = runs
         .iter()
         .enumerate()
-        .map(|(number, run)| Series {
-            name: run.law.to_owned(),
-            colour: number,
-            is_joined: true,
-            dots: run.samples.iter().map(|sample| Dot { x: sample[0], y: sample[1], ..Dot::default() }).collect(),
-            ..Series::default()
-        })
+        .map(|(number, run)| Series::line(run.law, number, run.samples.iter().map(|sample| (sample[0], sample[1]))))
         .collect();
     chart.guides.push(Guide::Horizontal(LARGEST, format!("{LARGEST:e}")));
     chart

@@ -1,16 +1,12 @@
 //! The thesis' setting: material, damping, load and time step, and the simulations that have it.
 
-use std::path::Path;
-
-use fem_engine::simulator::build;
 use fem_mesh::TetrahedralMesh;
-use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
-use fem_scene::{body_of, parse};
 use nalgebra::Vector3;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::torus::{RING, TUBE};
+use crate::scenes::{REPLACED, simulation, step, text};
 
 /// Time step and duration of the thesis, s.
 pub const DT: f64 = 0.016;
@@ -82,11 +78,10 @@ impl Setting<'_> {
             "static" => "steps = 1".to_owned(),
             _ => format!("dt = {DT}\n[damping]\nalpha = {ALPHA}\nbeta = {BETA}"),
         };
-        format!(
-            "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"{law}\"\n\
-             young = {young:e}\npoisson = {poisson}\ndensity = {DENSITY}\n[mass]\nlumped = false\n{tables}{newton}\
-             [time]\nintegrator = \"{integrator}\"\nprecision = \"{precision}\"\n{time}\n"
-        )
+        let material = format!(
+            "model = \"{law}\"\nyoung = {young:e}\npoisson = {poisson}\ndensity = {DENSITY}\n[mass]\nlumped = false\n{tables}{newton}"
+        );
+        text(REPLACED, &material, &format!("integrator = \"{integrator}\"\nprecision = \"{precision}\"\n{time}"), "")
     }
 
     /// The torus, squashed along x by a traction on its sides `left` and `right`. Nodes next to the planes
@@ -124,28 +119,6 @@ pub fn supports(mesh: &TetrahedralMesh) -> [Vec<usize>; 3] {
 /// Distance from a plane of symmetry up to which its nodes are supported, m, and their least number on a coarse mesh.
 const NEXT_TO_PLANE: f64 = 0.05 * TUBE;
 const LEAST_SUPPORTS: usize = 4;
-
-/// The simulation of a scene on a mesh in memory, which takes the place of the scene's `[mesh]`.
-///
-/// # Errors
-/// A scene that is refused.
-pub fn simulation(text: &str, mesh: impl Into<BodyMesh>) -> Result<Box<dyn Simulation>, String> {
-    let scene = parse(text, Path::new("rtfem.toml")).map_err(|error| error.to_string())?;
-    let body = body_of(&scene, mesh, Path::new("")).map_err(|error| error.to_string())?;
-    build(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
-}
-
-/// Advances by one step, which must converge.
-///
-/// # Errors
-/// A step that fails or does not converge.
-pub fn step(simulation: &mut dyn Simulation) -> Result<(), String> {
-    simulation.step().map_err(|failure| failure.to_string())?;
-    match simulation.counters().unconverged_steps {
-        0 => Ok(()),
-        _ => Err(format!("step {} has not converged", simulation.steps())),
-    }
-}
 
 /// Displacements of all nodes, m.
 pub fn displacements(simulation: &dyn Simulation) -> Vec<Vector3<f64>> {

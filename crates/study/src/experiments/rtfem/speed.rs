@@ -9,8 +9,8 @@ use super::setting::{DT, LAWS, SOLVERS, Setting, one_thread};
 use super::steps::{parts_table, share};
 use super::timing::{Timed, timed};
 use super::torus::{ACCEPTED, Torus, sizes};
-use crate::experiments::{Figure, Mark, Part, Table};
 use crate::machine::threads;
+use crate::study::{Mark, Part, Table};
 
 /// Elements, and the times that the thesis prints on its processor (LU) and on its graphics card, ms a step.
 type Theirs = (usize, Option<f64>, f64);
@@ -54,54 +54,31 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
         steps(quick)
     );
     let chart = found.chart();
-    Ok(Part {
-        name: "speed",
-        title: "Time of a step",
-        text,
-        marks,
-        tables: vec![
-            Table {
-                name: "rtfem-speed".to_owned(),
-                head: vec![
-                    ">elements, thesis",
-                    ">elements",
-                    ">nodes",
-                    ">edge (m)",
-                    ">thesis, processor (ms)",
-                    ">thesis, card (ms)",
-                    "law",
-                    "numbers",
-                    ">threads",
-                    ">here, median (ms)",
-                    ">95 % (ms)",
-                    ">first (ms)",
-                    ">Newton iterations a step",
-                    ">factorisations",
-                ],
-                rows: found.rows,
-            },
-            Table {
-                name: "rtfem-solvers".to_owned(),
-                head: vec![
-                    ">elements",
-                    "solver",
-                    "numbers",
-                    ">median (ms)",
-                    ">95 % (ms)",
-                    ">first (ms)",
-                    ">iterations a step",
-                    "steps",
-                ],
-                rows: found.solvers,
-            },
-            parts_table(found.parts),
-        ],
-        figures: vec![Figure {
-            name: "rtfem-speed".to_owned(),
-            picture: chart.draw(),
-            caption: "Processor time of a step in double precision on one thread, beside the thesis.".to_owned(),
-        }],
-    })
+    let by_size = [
+        ">elements, thesis",
+        ">elements",
+        ">nodes",
+        ">edge (m)",
+        ">thesis, processor (ms)",
+        ">thesis, card (ms)",
+        "law",
+        "numbers",
+        ">threads",
+        ">here, median (ms)",
+        ">95 % (ms)",
+        ">first (ms)",
+        ">Newton iterations a step",
+        ">factorisations",
+    ];
+    let by_solver =
+        [">elements", "solver", "numbers", ">median (ms)", ">95 % (ms)", ">first (ms)", ">iterations a step", "steps"];
+    let tables = [
+        Table::new("rtfem-speed", &by_size, found.rows),
+        Table::new("rtfem-solvers", &by_solver, found.solvers),
+        parts_table(found.parts),
+    ];
+    let caption = "Processor time of a step in double precision on one thread, beside the thesis.";
+    Ok(Part::new(text).marks(marks).tables(tables).chart("rtfem-speed", &chart, caption))
 }
 
 /// Rows, and the figures of the marks.
@@ -167,17 +144,15 @@ impl Found {
             let slowest = self.judged.iter().filter(|of| of.0 == law).map(|of| of.2).fold(0.0, f64::max);
             let statement = format!("{law}: a step of every size under {FRAME} ms of processor time on one thread");
             let mark = Mark::new(statement, format!("{slowest:.2} ms at most"), slowest < FRAME);
-            marks.push(timing(mark.beside("up to 3000 ms (processor), 35 ms (card)"), quick));
+            marks.push(mark.beside("up to 3000 ms (processor), 35 ms (card)").unless(quick));
         }
         if let Some(&(_, elements, processor, factorizations)) =
             self.judged.iter().filter(|of| of.0 == "linear").max_by_key(|of| of.1)
         {
             let statement =
                 format!("linear, {elements} elements: a step at most {LARGEST} ms of processor time on one thread");
-            marks.push(timing(
-                Mark::new(statement, format!("{processor:.3} ms"), processor <= LARGEST).beside("35 ms (card)"),
-                quick,
-            ));
+            let mark = Mark::new(statement, format!("{processor:.3} ms"), processor <= LARGEST);
+            marks.push(mark.beside("35 ms (card)").unless(quick));
             let statement =
                 format!("linear, {elements} elements: the factor is kept: at most 2 factorisations in all steps");
             marks.push(Mark::new(statement, format!("{factorizations}"), factorizations <= 2));
@@ -187,17 +162,9 @@ impl Found {
 
     fn chart(&self) -> Chart {
         let mut chart = Chart::new("time of a step", Axis::log("elements"), Axis::log("time of a step (ms)"));
-        let series = |name: &str, colour: usize, dots: Vec<(f64, f64)>| Series {
-            name: name.to_owned(),
-            colour,
-            shape: colour % 4,
-            is_joined: true,
-            has_dots: true,
-            dots: dots
-                .into_iter()
-                .map(|(x, y)| Dot { x, y, title: format!("{name}: {x} elements, {y:.3} ms"), ..Dot::default() })
-                .collect(),
-            ..Series::default()
+        let series = |name: &str, colour: usize, dots: Vec<(f64, f64)>| {
+            let dot = |(x, y)| Dot::new(x, y, format!("{name}: {x} elements, {y:.3} ms"));
+            Series::joined(name, (colour, colour % 4), dots.into_iter().map(dot))
         };
         let of_thesis = |time: &dyn Fn(&Theirs) -> Option<f64>| {
             THEIRS.iter().filter_map(|row| Some((row.0 as f64, time(row)?))).collect::<Vec<_>>()
@@ -211,11 +178,6 @@ impl Found {
         chart.guides.push(Guide::Horizontal(FRAME, format!("{FRAME} ms, one step of the thesis")));
         chart
     }
-}
-
-/// A mark that a short run does not judge.
-fn timing(mark: Mark, quick: bool) -> Mark {
-    Mark { holds: mark.holds.filter(|_| !quick), ..mark }
 }
 
 fn on_threads(count: usize, torus: &Torus, setting: &Setting, quick: bool) -> Result<Timed, String> {
@@ -275,7 +237,7 @@ mod tests {
             let mut simulation =
                 Setting { law: "corotated", tables: &tables, ..Setting::default() }.torus(&torus.mesh)?;
             let start = simulation.positions();
-            (0..5).try_for_each(|_| super::super::setting::step(&mut *simulation))?;
+            (0..5).try_for_each(|_| crate::scenes::step(&mut *simulation))?;
             Ok((start, simulation.positions()))
         };
         // Kept Cholesky factors leave 1e-10 of it.

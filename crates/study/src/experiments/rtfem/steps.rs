@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::setting::{LAWS, Setting, one_thread};
 use super::torus::Torus;
-use crate::experiments::Table;
+use crate::study::Table;
 
 /// Elements, and the times of the thesis for force assembly, right-hand side and solve, ms.
 const THEIRS: [(usize, [f64; 3]); 3] = [(1119, [4.0, 0.20, 4.0]), (2000, [5.0, 0.22, 5.0]), (5392, [16.0, 0.66, 15.0])];
@@ -51,19 +51,16 @@ fn row(torus: &Torus, wanted: usize, law: &str, count: usize) -> Result<Vec<Stri
 
 /// The table of these rows.
 pub fn parts_table(rows: Vec<Vec<String>>) -> Table {
-    Table {
-        name: "rtfem-parts".to_owned(),
-        head: vec![
-            ">elements",
-            "law",
-            ">force assembly, thesis (ms)",
-            ">here (ms)",
-            ">right-hand side, thesis (ms)",
-            ">here (ms)",
-            ">solve, thesis (ms)",
-            ">here (ms)",
-            ">the rest (ms)",
-        ],
-        rows,
-    }
+    let head = [
+        ">elements",
+        "law",
+        ">force assembly, thesis (ms)",
+        ">here (ms)",
+        ">right-hand side, thesis (ms)",
+        ">here (ms)",
+        ">solve, thesis (ms)",
+        ">here (ms)",
+        ">the rest (ms)",
+    ];
+    Table::new("rtfem-parts", &head, rows)
 }

@@ -9,8 +9,9 @@ use fem_mesh::{Pattern, SurfaceMesh, box_mesh, read_tetrahedra};
 use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
 
-use super::setting::{DT, LAWS, POISSON, Setting, TRACTION, YOUNG, median_and_p95, one_thread, simulation, step};
-use crate::experiments::{Mark, Part, Table};
+use super::setting::{DT, LAWS, POISSON, Setting, TRACTION, YOUNG, median_and_p95, one_thread};
+use crate::scenes::{simulation, step};
+use crate::study::{Mark, Part, Table};
 
 /// Parts of the height that stand on the ground, and that are pressed.
 const FOOT: f64 = 0.1;
@@ -26,57 +27,49 @@ const BALANCE: f64 = 1e-9;
 pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
     let (mut rows, mut marks) = (Vec::new(), Vec::new());
     let mut slowest = 0.0_f64;
-    for (name, mesh) in bodies(data, quick)? {
+    let bodies = bodies(data, quick)?;
+    for (name, mesh) in &bodies {
         for law in LAWS {
-            let found = pressed(law, &mesh, quick)?;
+            let found = pressed(law, mesh, quick)?;
             slowest = slowest.max(found.milliseconds);
             if law == "linear" {
                 let statement = format!("{name}: the reactions balance the load within {BALANCE:e}");
                 marks.push(Mark::new(statement, format!("{:.1e}", found.imbalance), found.imbalance <= BALANCE));
             }
-            rows.push(row(name, &mesh, law, &found));
+            rows.push((*name, mesh, law, found));
         }
     }
     let statement = format!("a step of every body and law under {} ms on one thread", 1e3 * DT);
-    let timing = Mark::new(statement, format!("{slowest:.2} ms at most"), slowest < 1e3 * DT);
-    marks.push(Mark { holds: timing.holds.filter(|_| !quick), ..timing });
+    marks.push(Mark::new(statement, format!("{slowest:.2} ms at most"), slowest < 1e3 * DT).unless(quick));
     let (bent, mark) = cantilevers(if quick { &CELLS[..3] } else { &CELLS })?;
     marks.push(mark);
-    Ok(Part {
-        name: "structures",
-        title: "Other bodies",
-        text: format!(
-            "Bodies with the thesis' material, damping and steps, announced there and not shown. The lowest tenth stands on the ground, and the highest tenth carries \
-             {TRACTION} Pa downwards; the donut is flat, in plane strain. The settling is the mean displacement of the pressed nodes in equilibrium. The \
-             cantilever, 4 × 1 × 1 m, bends under {} Pa across its end.",
-            BEND
-        ),
-        marks,
-        tables: vec![
-            Table {
-                name: "rtfem-structures".to_owned(),
-                head: vec![
-                    "body",
-                    ">elements",
-                    ">nodes",
-                    "law",
-                    ">a step, one thread (ms)",
-                    ">95 % (ms)",
-                    ">load (N)",
-                    ">settling (m)",
-                    ">over height (%)",
-                    ">imbalance of reactions",
-                ],
-                rows,
-            },
-            Table {
-                name: "rtfem-cantilever".to_owned(),
-                head: vec![">cells per m", ">elements", ">tip, Timoshenko (m)", ">here, linear (m)", ">error (%)"],
-                rows: bent,
-            },
+    let text = format!(
+        "Bodies with the thesis' material, damping and steps, announced there and not shown. The lowest tenth stands on the ground, and the highest tenth carries \
+         {TRACTION} Pa downwards; the donut is flat, in plane strain. The settling is the mean displacement of the pressed nodes in equilibrium. The \
+         cantilever, 4 × 1 × 1 m, bends under {BEND} Pa across its end."
+    );
+    let head = [">cells per m", ">elements", ">tip, Timoshenko (m)", ">here, linear (m)", ">error (%)"];
+    let tables = [table(&rows), Table::new("rtfem-cantilever", &head, bent)];
+    Ok(Part::new(text).marks(marks).tables(tables))
+}
+
+fn table(rows: &[(&str, &BodyMesh, &str, Pressed)]) -> Table {
+    Table::of(
+        "rtfem-structures",
+        rows,
+        &[
+            ("body", &|(name, ..)| (*name).to_owned()),
+            (">elements", &|(_, mesh, ..)| mesh.elements().to_string()),
+            (">nodes", &|(_, mesh, ..)| mesh.vertices().len().to_string()),
+            ("law", &|(.., law, _)| (*law).to_owned()),
+            (">a step, one thread (ms)", &|(.., found)| format!("{:.3}", found.milliseconds)),
+            (">95 % (ms)", &|(.., found)| format!("{:.3}", found.p95)),
+            (">load (N)", &|(.., found)| format!("{:.5}", found.load)),
+            (">settling (m)", &|(.., found)| format!("{:.5e}", found.settling)),
+            (">over height (%)", &|(.., found)| format!("{:.3}", 100.0 * found.settling / found.height)),
+            (">imbalance of reactions", &|(.., found)| format!("{:.1e}", found.imbalance)),
         ],
-        figures: Vec::new(),
-    })
+    )
 }
 
 /// Names and meshes.
@@ -158,18 +151,6 @@ fn pressed_area(mesh: &BodyMesh, above: f64) -> f64 {
         (thickness, face) => thickness.unwrap_or(f64::NAN) * (x[face[1]] - x[face[0]]).norm(),
     };
     mesh.faces().iter().filter(|face| is_above(face)).map(area).sum()
-}
-
-fn row(name: &str, mesh: &BodyMesh, law: &str, found: &Pressed) -> Vec<String> {
-    let first = [name.to_owned(), mesh.elements().to_string(), mesh.vertices().len().to_string(), law.to_owned()];
-    let times = [found.milliseconds, found.p95].map(|time| format!("{time:.3}"));
-    let rest = [
-        format!("{:.5}", found.load),
-        format!("{:.5e}", found.settling),
-        format!("{:.3}", 100.0 * found.settling / found.height),
-        format!("{:.1e}", found.imbalance),
-    ];
-    first.into_iter().chain(times).chain(rest).collect()
 }
 
 /// Load across the end of the cantilever, Pa: a deflection of a hundredth of its length.

@@ -2,9 +2,10 @@
 
 use fem_model::simulation::Diagnostics;
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::march::march_with;
 use crate::stability::scene_text::{ITERATED, LUMPED, SECOND_ORDER, SceneText, has_newton};
+use crate::study::Deadline;
 
 const FAMILY: &str = "contact";
 

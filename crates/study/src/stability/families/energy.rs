@@ -4,9 +4,10 @@
 use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::march::march;
 use crate::stability::scene_text::{SECOND_ORDER, SceneText, has_newton};
+use crate::study::Deadline;
 
 const FAMILY: &str = "energy from nothing";
 

@@ -2,9 +2,10 @@
 
 use fem_model::simulation::{Cause, Simulation};
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::clamped;
 use crate::stability::scene_text::{LAWS, SceneText, gravity};
+use crate::study::Deadline;
 
 const FAMILY: &str = "explosions";
 

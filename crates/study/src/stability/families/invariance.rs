@@ -4,10 +4,11 @@ use fem_engine::simulator::Simulator;
 use fem_mesh::TetrahedralMesh;
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Deadline, Finding};
+use crate::stability::case::{Case, Finding};
 use crate::stability::initial_state::{Random, place_moving};
 use crate::stability::march::march;
 use crate::stability::scene_text::{CLAMPED, DYNAMIC, LUMPED, SceneText, gravity, has_newton, moved_box};
+use crate::study::Deadline;
 
 const FAMILY: &str = "invariance";
 

@@ -3,10 +3,11 @@
 use fem_model::simulation::{Interactive, Simulation};
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::initial_state::place;
 use crate::stability::march::march_with;
 use crate::stability::scene_text::{CLAMPED, SceneText};
+use crate::study::Deadline;
 
 const FAMILY: &str = "long runs";
 

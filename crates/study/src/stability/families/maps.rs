@@ -1,14 +1,14 @@
 //! Maps: the outcome of a vibrating body for pairs of stiffness and time step, one map for each integrator.
 
 use std::ops::RangeInclusive;
-use std::sync::{Arc, Mutex};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::scene_text::DYNAMIC;
 use crate::stability::theory;
+use crate::study::Deadline;
 
 /// Young's moduli, from bottom to top: powers of ten, Pa.
 pub const EXPONENTS_OF_YOUNG: RangeInclusive<i32> = 2..=12;
@@ -20,10 +20,10 @@ pub const PARTS_OF_DT: i32 = 2;
 pub const TIME_STEPS: usize = 11;
 
 /// All pairs of one integrator.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Map {
     /// Name of the integrator.
-    pub integrator: &'static str,
+    pub integrator: String,
     /// E dt² at the stability limit ω_max dt, Pa s². For integrators without a stable step: where the highest mode grows enough
     /// within the run. `None` for unconditionally stable integrators.
     pub limit: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Map {
 }
 
 /// One pair.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cell {
     /// Young's modulus, Pa.
     pub young: f64,
@@ -52,24 +52,17 @@ pub struct Cell {
     pub note: String,
 }
 
-/// Finished maps, in any order.
-pub type Found = Arc<Mutex<Vec<Map>>>;
-
-/// Adds a case for the map of each integrator. The case adds its map to `found`.
-pub fn add(cases: &mut Vec<Case>, quick: bool, found: &Found) {
+/// Adds a case for the map of each integrator.
+pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let omega = unit_omega("linear");
     let count = EXPONENTS_OF_YOUNG.count() * TIME_STEPS;
     for integrator in DYNAMIC {
-        let found = Arc::clone(found);
         let parameters = format!("{count} pairs, E = 1e2 to 1e12 Pa, dt = 1e-5 to 1 s");
         let text = clamped(integrator, "neo_hookean", 1.0, 1.0);
         let work = move |deadline| {
             let map = map(integrator, omega, if quick { 300 } else { 4000 }, deadline);
             let finding = judged(&map);
-            if let Ok(mut found) = found.lock() {
-                found.push(map);
-            }
-            Ok(finding)
+            Ok(Finding { map: Some(map), ..finding })
         };
         cases.push(Case {
             margin_is: "share of the pairs with an outcome against theory; must be 0",
@@ -92,7 +85,7 @@ fn map(integrator: &'static str, omega: f64, most: usize, deadline: Deadline) ->
         }
     }
     let limit = largest(integrator, most).map(|z| (z / omega).powi(2));
-    Map { integrator, limit, most_steps: most, cells }
+    Map { integrator: integrator.to_owned(), limit, most_steps: most, cells }
 }
 
 /// ω_max dt below which a run of `most` steps survives.

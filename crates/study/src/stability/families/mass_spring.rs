@@ -5,11 +5,12 @@ use fem_engine::simulator::Simulator;
 use nalgebra::Vector3;
 
 use super::stiffness_and_step::{DT, YOUNG};
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::initial_state::{Random, place, place_moving};
 use crate::stability::march::march;
 use crate::stability::scene_text::{CLAMPED, DAMPED, DYNAMIC, SceneText, gravity, prescribed_end};
+use crate::study::Deadline;
 
 const FAMILY: &str = "mass-spring bodies";
 const MODEL: &str = "mass_spring";

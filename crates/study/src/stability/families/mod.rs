@@ -23,11 +23,11 @@ mod stiffness_and_step;
 
 use super::case::Case;
 
-/// The cases of all families. Finished maps are added to `maps`.
-pub fn cases(quick: bool, maps: &maps::Found) -> Vec<Case> {
+/// The cases of all families.
+pub fn cases(quick: bool) -> Vec<Case> {
     let mut cases = Vec::new();
     stiffness_and_step::add(&mut cases, quick);
-    maps::add(&mut cases, quick, maps);
+    maps::add(&mut cases, quick);
     stability_limits::add(&mut cases, quick);
     explosions::add(&mut cases);
     incompressibility::add(&mut cases, quick);

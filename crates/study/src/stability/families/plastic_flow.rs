@@ -2,9 +2,10 @@
 
 use fem_model::simulation::Simulation;
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::march::march_with;
 use crate::stability::scene_text::{CLAMPED, SceneText};
+use crate::study::Deadline;
 
 const FAMILY: &str = "plastic flow";
 

@@ -10,10 +10,11 @@ use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::initial_state::{Random, distance_from_rest, place};
 use crate::stability::march::march;
 use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText};
+use crate::study::Deadline;
 
 const FAMILY: &str = "recovery";
 

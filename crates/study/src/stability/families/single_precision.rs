@@ -5,10 +5,11 @@ use fem_model::simulation::Simulation;
 use nalgebra::{DVector, Vector3};
 
 use super::stiffness_and_step::{DT, YOUNG};
-use crate::stability::case::{Case, Deadline, Finding};
+use crate::stability::case::{Case, Finding};
 use crate::stability::forecast::clamped;
 use crate::stability::march::march;
 use crate::stability::scene_text::{SceneText, gravity, has_newton, moved_box};
+use crate::study::Deadline;
 
 const FAMILY: &str = "single precision";
 

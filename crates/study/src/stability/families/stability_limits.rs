@@ -3,11 +3,12 @@
 use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
 
-use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, excite, forecast, try_forecast};
 use crate::stability::march::march;
 use crate::stability::scene_text::{DYNAMIC, LUMPED, SceneText};
 use crate::stability::theory;
+use crate::study::Deadline;
 
 const FAMILY: &str = "stability limits";
 

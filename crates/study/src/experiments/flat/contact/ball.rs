@@ -9,7 +9,7 @@ use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector3;
 
 use super::cylinder::graded;
-use crate::experiments::flat::simulation::{simulation, steps};
+use crate::scenes::{double, steps};
 
 /// Radius of the contact that the mesh is made for, and of the ball, m.
 pub const RADIUS: f64 = 0.04;
@@ -55,7 +55,7 @@ pub fn contact(h: f64) -> Result<Hertz, String> {
         side("y", "max", -depth),
         -FLOOR
     );
-    let mut simulation = simulation(&text, Some(BodyMesh::solid(block(h)?)))?;
+    let mut simulation = double(&text, Some(BodyMesh::solid(block(h)?)))?;
     steps(&mut simulation, LOAD_STEPS)?;
     let contact = &simulation.contacts()[0];
     let support = simulation.reactions()[2].force[1];

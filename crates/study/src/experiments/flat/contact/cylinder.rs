@@ -5,7 +5,7 @@ use fem_model::BodyMesh;
 use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector3;
 
-use crate::experiments::flat::simulation::{simulation, steps};
+use crate::scenes::{double, steps};
 
 /// Half-width of the contact that the mesh is made for, m; the cylinder has a radius of 1 m.
 pub const WIDTH: f64 = 0.06;
@@ -63,7 +63,7 @@ pub fn widths(h: f64) -> Result<[f64; 2], String> {
          [[prescribed]]\non = { axis = \"y\", side = \"max\", within = 1e-9 }\ndisplacement = [0, -0.0063, 0]\ncomponents = [\"y\"]\n\
          [contact]\nactivation_distance = 1e-5\n[[planes]]\npoint = [0, -1e-6, 0]\nnormal = [0, 1, 0]\n";
     let mesh = BodyMesh::flat(quarter(h), 1.0);
-    let mut simulation = simulation(text, Some(mesh))?;
+    let mut simulation = double(text, Some(mesh))?;
     steps(&mut simulation, 4)?;
     let force = 2.0 * simulation.contacts()[0].force[1];
     let modulus = 1e7 / (1.0 - 0.09);

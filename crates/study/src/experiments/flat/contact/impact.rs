@@ -3,7 +3,7 @@
 use fem_model::simulation::{Diagnostics, Simulation};
 
 use super::momentum;
-use crate::experiments::flat::simulation::{simulation, step};
+use crate::scenes::{double, step};
 
 /// 2 L/c for the bar of 1 m and c = 10 m/s, s.
 pub const DURATION: f64 = 0.2;
@@ -31,7 +31,7 @@ pub fn bar(method: &str) -> Result<Impact, String> {
          [[planes]]\npoint = [-1e-6, 0, 0]\nnormal = [1, 0, 0]\n{contact}\
          [[initial_velocity]]\nvelocity = [-0.1, 0, 0]\n"
     );
-    let mut simulation = simulation(&text, None)?;
+    let mut simulation = double(&text, None)?;
     let before = momentum(&simulation);
     let (mut first, mut last, mut impulse, mut steady) = (f64::INFINITY, 0.0, 0.0, Vec::new());
     while simulation.time() < 0.3 {

@@ -3,7 +3,7 @@
 use fem_engine::simulator::Simulator;
 
 use super::{momentum, travel};
-use crate::experiments::flat::simulation::{simulation, steps};
+use crate::scenes::{double, steps};
 
 const G: f64 = 9.81;
 /// Coefficient of friction.
@@ -29,7 +29,7 @@ fn incline(method: &str, dt: f64, factor: f64, velocity: f64) -> Result<Simulato
         -G * angle.cos(),
         -gap
     );
-    simulation(&text, None)
+    double(&text, None)
 }
 
 /// Time step of a method, s.

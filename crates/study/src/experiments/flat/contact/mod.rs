@@ -12,7 +12,7 @@ use std::path::Path;
 
 use fem_engine::simulator::Simulator;
 
-use crate::experiments::{Mark, Part, Table};
+use crate::study::{Mark, Part, Table};
 
 /// The methods that support contact and move.
 pub const METHODS: [&str; 6] = ["implicit_euler", "verlet", "semi_implicit_euler", "explicit_euler", "rk2", "rk4"];
@@ -30,19 +30,13 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
         add_impact(&mut marks, method)?;
     }
     add_hertz(&mut marks, &mut tables, quick)?;
-    Ok(Part {
-        name: "contact",
-        title: "Contact and friction",
-        text: format!(
-            "A block at rest, a block on an incline and on a level floor with friction {}, a bar that hits a wall (c is its wave speed), and Hertz's contact of \
-             a cylinder and of a ball with a plane (Johnson, Contact Mechanics, 1985, sections 4.2 and 4.3). Implicit methods have a barrier and smoothed friction, explicit \
-             ones impulses. The thesis multiplies the tangential velocity of touching nodes in each substep.",
-            incline::FRICTION
-        ),
-        marks,
-        tables,
-        figures: Vec::new(),
-    })
+    let text = format!(
+        "A block at rest, a block on an incline and on a level floor with friction {}, a bar that hits a wall (c is its wave speed), and Hertz's contact of \
+         a cylinder and of a ball with a plane (Johnson, Contact Mechanics, 1985, sections 4.2 and 4.3). Implicit methods have a barrier and smoothed friction, explicit \
+         ones impulses. The thesis multiplies the tangential velocity of touching nodes in each substep.",
+        incline::FRICTION
+    );
+    Ok(Part::new(text).marks(marks).tables(tables))
 }
 
 fn add_resting(marks: &mut Vec<Mark>, tables: &mut Vec<Table>) -> Result<(), String> {
@@ -66,11 +60,8 @@ fn add_resting(marks: &mut Vec<Mark>, tables: &mut Vec<Table>) -> Result<(), Str
         let [gap, root] = [block.gap, block.root].map(|length| format!("{length:.12e}"));
         rows.push(vec![format!("{young:e}"), gap, root, format!("{:.9}", block.force), block.unconverged.to_string()]);
     }
-    tables.push(Table {
-        name: "flat-contact-resting".to_owned(),
-        head: vec![">E (Pa)", ">gap (m)", ">root (m)", ">force (N)", ">of 2000 steps unconverged"],
-        rows,
-    });
+    let head = [">E (Pa)", ">gap (m)", ">root (m)", ">force (N)", ">of 2000 steps unconverged"];
+    tables.push(Table::new("flat-contact-resting", &head, rows));
     Ok(())
 }
 
@@ -117,11 +108,8 @@ fn add_stopping(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, methods: &[&str]
             rows.push(vec![(*method).to_owned(), substeps.to_string(), way, format!("{:.3}", 100.0 * error)]);
         }
     }
-    tables.push(Table {
-        name: "flat-contact-stopping".to_owned(),
-        head: vec!["method", ">substeps", ">distance (m)", ">error (%)"],
-        rows,
-    });
+    let head = ["method", ">substeps", ">distance (m)", ">error (%)"];
+    tables.push(Table::new("flat-contact-stopping", &head, rows));
     Ok(())
 }
 
@@ -178,11 +166,7 @@ fn add_hertz(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, quick: bool) -> Res
             errors[1] <= bound && errors[1] < errors[0],
         ));
     }
-    tables.push(Table {
-        name: "flat-contact-hertz".to_owned(),
-        head: vec!["body", ">a/h", ">found", ">Hertz", ">error (%)"],
-        rows,
-    });
+    tables.push(Table::new("flat-contact-hertz", &["body", ">a/h", ">found", ">Hertz", ">error (%)"], rows));
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 
 use fem_model::simulation::{Diagnostics, Simulation};
 
-use crate::experiments::flat::simulation::simulation;
+use crate::scenes::double;
 
 /// Weight of the block of 1000 kg, N.
 pub const WEIGHT: f64 = 9810.0;
@@ -29,7 +29,7 @@ pub fn block(young: f64) -> Result<Block, String> {
          young = {young:e}\npoisson = 0.3\ndensity = 1000\n[time]\ndt = 0.02\nintegrator = \"implicit_euler\"\n[newton]\ntolerance = 1e-9\n\
          [gravity]\nacceleration = [0, -9.81, 0]\n[[planes]]\npoint = [0, -5e-4, 0]\nnormal = [0, 1, 0]\n"
     );
-    let mut simulation = simulation(&text, None)?;
+    let mut simulation = double(&text, None)?;
     for _ in 0..2000 {
         simulation.step().map_err(|failure| failure.to_string())?;
     }

@@ -3,8 +3,8 @@
 use fem_model::simulation::Diagnostics;
 
 use crate::experiments::flat::contact::incline;
-use crate::experiments::flat::simulation::{simulation, step};
 use crate::experiments::mistake::Mistake;
+use crate::scenes::{double, step};
 
 /// Frames in a second.
 const FRAMES: f64 = 60.0;
@@ -51,7 +51,7 @@ pub fn projection() -> Result<Mistake, String> {
          poisson = 0.25\ndensity = 140.5\n[gravity]\nacceleration = [0, -{G}, 0]\n[time]\nintegrator = \"semi_implicit_euler\"\ndt = {dt:e}\n\
          [damping]\nbeta = 1e-3\n[[planes]]\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\n"
     );
-    let mut simulation = simulation(&text, None)?;
+    let mut simulation = double(&text, None)?;
     let mut depth = 0.0f64;
     for _ in 0..600 {
         step(&mut simulation)?;

@@ -8,8 +8,8 @@ mod triangles;
 
 use std::path::Path;
 
-use crate::experiments::Part;
 use crate::experiments::mistake::{marks, table};
+use crate::study::Part;
 
 /// Computes all of them.
 pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
@@ -22,14 +22,7 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
     found.push(contact::projection()?);
     found.push(triangles::slivers(data)?);
     found.push(order::verlet()?);
-    Ok(Part {
-        name: "mistakes",
-        title: "Each mistake, with its figures",
-        text: "The thesis' rules, programmed in a few lines each, beside this program. Two figures are not computed but printed in the thesis: the best R/l of 0.5 and the \
-               order 4 of Verlet. The thesis does not say which norms it compares; the row of the cap takes the Frobenius norm for the yield and the spectral norm for the cap."
-            .to_owned(),
-        marks: marks(&found),
-        tables: vec![table("flat-mistakes", &found)],
-        figures: Vec::new(),
-    })
+    let text = "The thesis' rules, programmed in a few lines each, beside this program. Two figures are not computed but printed in the thesis: the best R/l of 0.5 and the \
+                order 4 of Verlet. The thesis does not say which norms it compares; the row of the cap takes the Frobenius norm for the yield and the spectral norm for the cap.";
+    Ok(Part::new(text).marks(marks(&found)).tables([table("flat-mistakes", &found)]))
 }

@@ -2,8 +2,8 @@
 
 use fem_model::simulation::Simulation;
 
-use crate::experiments::flat::simulation::{simulation, steps};
 use crate::experiments::mistake::Mistake;
+use crate::scenes::{double, steps};
 
 /// The observed order of Verlet's method on a vibrating strip, and on an oscillator.
 pub fn verlet() -> Result<Mistake, String> {
@@ -26,7 +26,7 @@ fn strip() -> Result<f64, String> {
              poisson = 0.25\ndensity = 140.5\n[time]\nintegrator = \"verlet\"\ndt = {dt:e}\n\
              [[initial_velocity]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\nvelocity = [1, 0.2, 0]\n"
         );
-        let mut simulation = simulation(&text, None)?;
+        let mut simulation = double(&text, None)?;
         steps(&mut simulation, (0.05 / dt).round() as usize)?;
         Ok::<_, String>(simulation.positions())
     };

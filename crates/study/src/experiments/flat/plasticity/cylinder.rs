@@ -9,7 +9,7 @@ use fem_model::BodyMesh;
 use fem_model::simulation::Diagnostics;
 use nalgebra::Vector3;
 
-use crate::experiments::flat::simulation::{simulation, step};
+use crate::scenes::{double, step};
 
 /// Inner and outer radius, m.
 const INNER: f64 = 1.0;
@@ -36,7 +36,7 @@ pub fn elastic_pressure() -> f64 {
 pub fn pressures(rings: usize, sectors: usize, distance: f64, load_steps: usize) -> Result<Vec<f64>, String> {
     let mesh = quarter(rings, sectors);
     let flat = BodyMesh::flat(mesh.clone(), 1.0);
-    let mut simulation = simulation(&scene(&mesh, sectors, distance, load_steps), Some(flat))?;
+    let mut simulation = double(&scene(&mesh, sectors, distance, load_steps), Some(flat))?;
     let mut pressure = || {
         step(&mut simulation)?;
         let outward = |(x, force): (&Vector3<f64>, [f64; 3])| x.normalize().dot(&Vector3::from(force));

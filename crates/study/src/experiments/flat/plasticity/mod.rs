@@ -9,7 +9,7 @@ use std::path::Path;
 
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
 
-use crate::experiments::{Figure, Mark, Part, Table};
+use crate::study::{Mark, Part, Table};
 use relaxation::{Relaxation, YIELD};
 
 /// Random strain paths of each model in a full and in a short run.
@@ -30,23 +30,14 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     add_motion(&mut marks, &mut tables, quick)?;
     add_cylinder(&mut marks, &mut tables)?;
     add_paths(&mut marks, &mut tables, PATHS[usize::from(quick)]);
-    Ok(Part {
-        name: "plasticity",
-        title: "Plastic flow",
-        text: format!(
-            "The additive model has a yield strain y = {YIELD}, a creep rate c and a maximum. The thesis lets the plastic strain flow by the whole elastic \
-             strain as long as that exceeds y, so that it falls below y, the farther the longer the substep; here the excess over y flows, exactly over a step. \
-             Below it: a strip that is thrown apart at one end and flows while it swings, a strip that is released, von Mises plasticity (j2) in a thick \
-             cylinder under internal pressure with the limit load (2 σ_y/√3) ln(b/a) (Hill 1950), and random paths of strain."
-        ),
-        marks,
-        tables,
-        figures: vec![Figure {
-            name: "flat-plasticity".to_owned(),
-            picture: relaxation_chart(&fine).draw(),
-            caption: "The elastic strain of a strip of constant strain, and that of the thesis' rule with 10 substeps at 60 frames a second.".to_owned(),
-        }],
-    })
+    let text = format!(
+        "The additive model has a yield strain y = {YIELD}, a creep rate c and a maximum. The thesis lets the plastic strain flow by the whole elastic \
+         strain as long as that exceeds y, so that it falls below y, the farther the longer the substep; here the excess over y flows, exactly over a step. \
+         Below it: a strip that is thrown apart at one end and flows while it swings, a strip that is released, von Mises plasticity (j2) in a thick \
+         cylinder under internal pressure with the limit load (2 σ_y/√3) ln(b/a) (Hill 1950), and random paths of strain."
+    );
+    let caption = "The elastic strain of a strip of constant strain, and that of the thesis' rule with 10 substeps at 60 frames a second.";
+    Ok(Part::new(text).marks(marks).tables(tables).chart("flat-plasticity", &relaxation_chart(&fine), caption))
 }
 
 /// Bound, dissipation, order and release of moving bodies.
@@ -72,18 +63,15 @@ fn add_motion(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, quick: bool) -> Re
         last.map_or(String::new(), |order| format!("{order:.3}")),
         last.is_some_and(|order| (0.9..1.1).contains(&order)),
     ));
-    let row = |(change, order): &(motion::Change, Option<f64>)| {
-        vec![
-            format!("{:e}", change.dt),
-            format!("{:.3e}", change.distance),
-            order.map_or(String::new(), |order| format!("{order:.3}")),
-        ]
-    };
-    tables.push(Table {
-        name: "flat-plasticity-order".to_owned(),
-        head: vec![">time step (s)", ">change of the end with half of it (m)", ">order"],
-        rows: orders.iter().map(row).collect(),
-    });
+    tables.push(Table::of(
+        "flat-plasticity-order",
+        &orders,
+        &[
+            (">time step (s)", &|(change, _)| format!("{:e}", change.dt)),
+            (">change of the end with half of it (m)", &|(change, _)| format!("{:.3e}", change.distance)),
+            (">order", &|(_, order)| order.map_or(String::new(), |order| format!("{order:.3}"))),
+        ],
+    ));
     let released = motion::released()?;
     marks.push(Mark::new(
         "a released strip comes to rest at εᵖ within 1e-6, without stress",
@@ -109,18 +97,16 @@ fn add_cylinder(marks: &mut Vec<Mark>, tables: &mut Vec<Table>) -> Result<(), St
         format!("{stiffness:.4} of it"),
         (stiffness - 1.0).abs() < 0.01,
     ));
-    let row = |(number, pressure): (usize, &f64)| {
-        vec![
-            format!("{:.1e}", 1e-4 * (number + 1) as f64),
-            format!("{pressure:.2}"),
-            format!("{:.4}", pressure / limit),
-        ]
-    };
-    tables.push(Table {
-        name: "flat-plasticity-cylinder".to_owned(),
-        head: vec![">displacement of the inner wall (m)", ">pressure (Pa)", ">over the limit load"],
-        rows: found.iter().enumerate().map(row).collect(),
-    });
+    let found: Vec<_> = found.into_iter().enumerate().collect();
+    tables.push(Table::of(
+        "flat-plasticity-cylinder",
+        &found,
+        &[
+            (">displacement of the inner wall (m)", &|(number, _)| format!("{:.1e}", 1e-4 * (number + 1) as f64)),
+            (">pressure (Pa)", &|(_, pressure)| format!("{pressure:.2}")),
+            (">over the limit load", &|(_, pressure)| format!("{:.4}", pressure / limit)),
+        ],
+    ));
     Ok(())
 }
 
@@ -136,65 +122,43 @@ fn add_paths(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, count: usize) {
             found.flows > found.steps / 10 && found.least_dissipation >= 0.0 && found.least_loss >= -paths::ROUNDING,
         ));
     }
-    let row = |(model, found): &(&str, paths::Found)| {
-        let [steps, flows] = [found.steps, found.flows].map(|count| count.to_string());
-        let [least, loss] = [found.least_dissipation, found.least_loss].map(|least| format!("{least:.2e}"));
-        vec![(*model).to_owned(), count.to_string(), steps, flows, least, loss]
-    };
-    tables.push(Table {
-        name: "flat-plasticity-paths".to_owned(),
-        head: vec![
-            "model",
-            ">paths",
-            ">steps",
-            ">of them with flow",
-            ">least dissipation over μ",
-            ">least loss of free energy",
+    tables.push(Table::of(
+        "flat-plasticity-paths",
+        &found,
+        &[
+            ("model", &|(model, _)| (*model).to_owned()),
+            (">paths", &|_| count.to_string()),
+            (">steps", &|(_, found)| found.steps.to_string()),
+            (">of them with flow", &|(_, found)| found.flows.to_string()),
+            (">least dissipation over μ", &|(_, found)| format!("{:.2e}", found.least_dissipation)),
+            (">least loss of free energy", &|(_, found)| format!("{:.2e}", found.least_loss)),
         ],
-        rows: found.iter().map(row).collect(),
-    });
+    ));
 }
 
 fn relaxation_table(fine: &Relaxation) -> Table {
-    let row = |at: &relaxation::Instant| {
-        vec![
-            format!("{:.2}", at.time),
-            format!("{:.12}", at.closed_form),
-            format!("{:.12}", at.elastic),
-            format!("{:.1e}", (at.elastic - at.closed_form).abs()),
-            format!("{:.6}", at.theirs),
-        ]
-    };
-    Table {
-        name: "flat-plasticity".to_owned(),
-        head: vec![">time (s)", ">closed form", ">here", ">error", ">the thesis' rule"],
-        rows: fine.instants.iter().map(row).collect(),
-    }
+    Table::of(
+        "flat-plasticity",
+        &fine.instants,
+        &[
+            (">time (s)", &|at| format!("{:.2}", at.time)),
+            (">closed form", &|at| format!("{:.12}", at.closed_form)),
+            (">here", &|at| format!("{:.12}", at.elastic)),
+            (">error", &|at| format!("{:.1e}", (at.elastic - at.closed_form).abs())),
+            (">the thesis' rule", &|at| format!("{:.6}", at.theirs)),
+        ],
+    )
 }
 
 fn relaxation_chart(fine: &Relaxation) -> Chart {
     let dots = |value: fn(&relaxation::Instant) -> f64| {
-        let dot = |at: &relaxation::Instant| Dot {
-            x: at.time,
-            y: value(at),
-            title: format!("{:.2} s\n{:.5}", at.time, value(at)),
-            ..Dot::default()
-        };
-        fine.instants.iter().map(dot).collect::<Vec<_>>()
-    };
-    let curve = |name: &str, colour: usize, dots: Vec<Dot>| Series {
-        name: name.to_owned(),
-        colour,
-        is_joined: true,
-        dots,
-        ..Series::default()
+        fine.instants.iter().map(move |at| Dot::new(at.time, value(at), format!("{:.2} s\n{:.5}", at.time, value(at))))
     };
     let mut chart = Chart::new("elastic strain at constant strain", Axis::linear("time (s)"), Axis::linear("|εᵉ|"));
-    let here = Series { is_joined: false, has_dots: true, ..curve("here", 0, dots(|at| at.elastic)) };
     chart.series = vec![
-        curve("y + (|ε₀| − y) e^(−ct)", 0, dots(|at| at.closed_form)),
-        here,
-        curve("the thesis' rule", 1, dots(|at| at.theirs)),
+        Series::line("y + (|ε₀| − y) e^(−ct)", 0, dots(|at| at.closed_form)),
+        Series { is_joined: false, ..Series::joined("here", (0, 0), dots(|at| at.elastic)) },
+        Series::line("the thesis' rule", 1, dots(|at| at.theirs)),
     ];
     chart.guides = vec![Guide::Horizontal(YIELD, "yield strain".to_owned())];
     chart

@@ -3,7 +3,7 @@
 use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
 
-use crate::experiments::flat::simulation::{simulation, step, steps};
+use crate::scenes::{double, step, steps};
 
 /// Bound of the plastic strain of the thrown strip.
 pub const MAXIMUM: f64 = 0.08;
@@ -37,7 +37,7 @@ pub struct Thrown {
 
 /// The strip, thrown apart, with velocity Verlet and so many steps of 0.1 ms.
 pub fn thrown(count: usize) -> Result<Thrown, String> {
-    let mut simulation = simulation(&strip("integrator = \"verlet\"\ndt = 1e-4", 20.0, MAXIMUM, THROWN), None)?;
+    let mut simulation = double(&strip("integrator = \"verlet\"\ndt = 1e-4", 20.0, MAXIMUM, THROWN), None)?;
     let (mut largest, mut least, mut before) = (0.0f64, f64::INFINITY, 0.0);
     for _ in 0..count {
         step(&mut simulation)?;
@@ -66,7 +66,7 @@ pub struct Change {
 pub fn orders() -> Result<Vec<(Change, Option<f64>)>, String> {
     let end = |dt: f64| {
         let method = format!("integrator = \"verlet\"\ndt = {dt:e}");
-        let mut simulation = simulation(&strip(&method, 20.0, 10.0, THROWN), None)?;
+        let mut simulation = double(&strip(&method, 20.0, 10.0, THROWN), None)?;
         steps(&mut simulation, (0.032 / dt).round() as usize)?;
         Ok::<_, String>(simulation.positions())
     };
@@ -94,7 +94,7 @@ pub fn released() -> Result<Released, String> {
         let u = 0.1 * 0.25 * f64::from(node % 9);
         tables += &format!("[[prescribed]]\nnodes = [{node}]\ndisplacement = [{u:e}, 0, 0]\nuntil = 5.0\n");
     }
-    let mut simulation = simulation(&strip(method, 5.0, 0.5, &tables), None)?;
+    let mut simulation = double(&strip(method, 5.0, 0.5, &tables), None)?;
     steps(&mut simulation, 50)?;
     let before = largest_stress(&simulation);
     steps(&mut simulation, 300)?;

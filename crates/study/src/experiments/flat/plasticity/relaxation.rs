@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use fem_engine::simulator::Simulator;
 
-use crate::experiments::flat::simulation::{simulation, step};
+use crate::scenes::{double, step};
 
 /// Yield strain, creep rate (1/s) and maximum.
 pub const YIELD: f64 = 0.05;
@@ -44,7 +44,7 @@ impl Relaxation {
 
 /// A strip of 2 × 1 m, all of whose nodes are displaced at once and stay there; steps of `dt` seconds.
 pub fn relaxation(dt: f64) -> Result<Relaxation, String> {
-    let mut simulation = simulation(&scene(dt), None)?;
+    let mut simulation = double(&scene(dt), None)?;
     let first = size(&GRADIENT);
     let mut theirs = Theirs { elastic: first, time: 0.0 };
     let mut instants = vec![Instant { time: 0.0, closed_form: first, elastic: first, theirs: first }];

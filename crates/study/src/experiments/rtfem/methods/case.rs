@@ -1,15 +1,12 @@
 //! A body with its material and time step, and the motions that all methods are measured by.
 
-use std::path::Path;
-
 use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
-use fem_scene::{body_of, parse};
 use nalgebra::DVector;
 
-use super::super::setting::simulation;
 use super::bodies::Shape;
 use crate::reference::{Equations, reference};
+use crate::scenes::{REPLACED, REPLACED_FLAT, scene_and_body, simulation};
 
 /// Density, kg/m³, and gravity, m/s².
 pub const DENSITY: f64 = 1000.0;
@@ -54,12 +51,12 @@ impl Case {
         let Self { young, poisson, rate, .. } = self;
         let poisson = if model == SPRINGS { String::new() } else { format!("poisson = {poisson}\n") };
         let (shape, plane, down) = match (self.shape, model) {
-            (Shape::Beam, _) => ("box = { size = [1, 1, 1]", "", [0.0, 0.0, -GRAVITY]),
-            (Shape::Strip, SPRINGS) => ("rectangle = { size = [1, 1]", "", [0.0, -GRAVITY, 0.0]),
-            (Shape::Strip, _) => ("rectangle = { size = [1, 1]", "plane = \"stress\"\n", [0.0, -GRAVITY, 0.0]),
+            (Shape::Beam, _) => (REPLACED, "", [0.0, 0.0, -GRAVITY]),
+            (Shape::Strip, SPRINGS) => (REPLACED_FLAT, "", [0.0, -GRAVITY, 0.0]),
+            (Shape::Strip, _) => (REPLACED_FLAT, "plane = \"stress\"\n", [0.0, -GRAVITY, 0.0]),
         };
         let text = format!(
-            "pipeline = \"engine\"\n[mesh]\n{shape}, cells_per_unit = 1 }}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n{poisson}{plane}\
+            "pipeline = \"engine\"\n[mesh]\n{shape}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n{poisson}{plane}\
              density = {DENSITY}\n[mass]\nlumped = true\n[gravity]\nacceleration = {down:?}\n[fixed]\nplane = {{ axis = \"x\", below = {clamp:e} }}\n\
              {tables}[time]\ndt = {:e}\nintegrator = \"{integrator}\"\n",
             1.0 / *rate as f64
@@ -85,8 +82,7 @@ impl Case {
     /// Positions at the end of the equations of motion of a model, integrated to round-off, m.
     fn exact(&self, model: &str) -> Result<DVector<f64>, String> {
         let (text, mesh) = self.scene(model, "verlet", "");
-        let scene = parse(&text, Path::new("rtfem.toml")).map_err(|error| error.to_string())?;
-        let body = body_of(&scene, mesh, Path::new("")).map_err(|error| error.to_string())?;
+        let (_, body) = scene_and_body(&text, Some(mesh)).map_err(|error| error.to_string())?;
         let equations = Equations::new(body)?;
         Ok(reference(&equations, self.steps as f64 / self.rate as f64, PATIENCE)?.q)
     }

@@ -2,7 +2,7 @@
 
 use super::bodies::Shape;
 use super::case::{Case, LAW, distance};
-use crate::experiments::Mark;
+use crate::study::Mark;
 
 /// Settings of a step that ends when iterations no longer change the velocities.
 const CONVERGED: &str = "[iterations]\ncount = 20000\ntolerance = 1e-13\n";

@@ -12,7 +12,7 @@ mod runs;
 use std::path::Path;
 
 use super::setting::one_thread;
-use crate::experiments::{Mark, Part};
+use crate::study::{Mark, Part};
 use answers::{Compared, FIRST_AT, STIFF, Swept};
 use bodies::Shape;
 use case::Case;
@@ -43,14 +43,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     marks.extend(springs_where_they_are_fair(&found));
     marks.push(every_run_is_counted(&found));
     marks.extend(newton_first(&found, quick));
-    Ok(Part {
-        name: "methods",
-        title: "Which method for what",
-        text: TEXT.to_owned(),
-        marks,
-        tables: pages::tables(&found),
-        figures: pages::figures(&found),
-    })
+    Ok(Part::new(TEXT).marks(marks).tables(pages::tables(&found)).figures(pages::figures(&found)))
 }
 
 const TEXT: &str = "A beam of 4 × 1 × 1 m (body-centred cubic lattice) and a strip of 4 × 1 m (equilateral triangles, plane stress), clamped at one end, \
@@ -133,8 +126,7 @@ fn newton_first(found: &[Compared], quick: bool) -> Vec<Mark> {
             false => format!("not in {} of {} cases: {}", exceptions.len(), stiff.len(), exceptions.join("; ")),
         };
         let holds = exceptions.is_empty() && stiff.iter().all(|of| of.newton_arrives());
-        let mark = Mark::new(statement, ours, holds);
-        Mark { holds: mark.holds.filter(|_| !quick), ..mark }
+        Mark::new(statement, ours, holds).unless(quick)
     };
     iterated.map(mark).collect()
 }

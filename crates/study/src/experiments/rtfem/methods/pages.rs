@@ -5,7 +5,7 @@ use fem_chart::{Axis, Chart, Dot, Guide, Series};
 use super::answers::{BUDGETS, Compared, ERRORS, Swept};
 use super::contenders::ALL;
 use super::runs::Run;
-use crate::experiments::{Figure, Table};
+use crate::study::{Figure, Table};
 
 /// The tables: every run, errors within budgets, times to errors, the errors that no solver can avoid, failures.
 pub fn tables(found: &[Compared]) -> Vec<Table> {
@@ -14,8 +14,9 @@ pub fn tables(found: &[Compared]) -> Vec<Table> {
 
 const CASE: [&str; 4] = ["body", ">E (Pa)", ">ν", ">dt (s)"];
 
-fn head(rest: &[&'static str]) -> Vec<&'static str> {
-    CASE.iter().chain(rest).copied().collect()
+/// A table whose rows begin with the cells of a case.
+fn of_cases(name: &str, rest: &[&str], rows: Vec<Vec<String>>) -> Table {
+    Table::new(name, &[&CASE, rest].concat(), rows)
 }
 
 fn number(value: Option<f64>) -> String {
@@ -35,11 +36,8 @@ fn unavoidable(found: &[Compared]) -> Table {
     let row = |of: &Compared| {
         of.case.cells().into_iter().chain([of.time_error, of.model_error].map(|error| number(Some(error)))).collect()
     };
-    Table {
-        name: "rtfem-methods-errors".to_owned(),
-        head: head(&[">time error of implicit Euler", ">model error of springs"]),
-        rows: found.iter().map(row).collect(),
-    }
+    let head = [">time error of implicit Euler", ">model error of springs"];
+    of_cases("rtfem-methods-errors", &head, found.iter().map(row).collect())
 }
 
 /// A row for each method on each case.
@@ -58,19 +56,14 @@ fn by_method(
 }
 
 fn times(found: &[Compared]) -> Table {
-    Table {
-        name: "rtfem-methods-times".to_owned(),
-        head: head(&["method", ">to a solver error of 1e-2 (ms a step)", ">1e-3", ">1e-6", ">best parameter"]),
-        rows: by_method(
-            found,
-            |swept| swept.contender.has_solver_error(),
-            |swept| {
-                let value = swept.runs.first().and_then(|run| run.value);
-                let times = ERRORS.map(|error| milliseconds(swept.time_to(error)));
-                times.into_iter().chain([value.map_or(String::new(), |value| value.to_string())]).collect()
-            },
-        ),
-    }
+    let cells = |swept: &Swept| {
+        let value = swept.runs.first().and_then(|run| run.value);
+        let times = ERRORS.map(|error| milliseconds(swept.time_to(error)));
+        times.into_iter().chain([value.map_or(String::new(), |value| value.to_string())]).collect()
+    };
+    let head = ["method", ">to a solver error of 1e-2 (ms a step)", ">1e-3", ">1e-6", ">best parameter"];
+    let rows = by_method(found, |swept| swept.contender.has_solver_error(), cells);
+    of_cases("rtfem-methods-times", &head, rows)
 }
 
 /// The iterated methods that reach a solver error of 1e-3 before Newton's, at any modulus.
@@ -81,11 +74,8 @@ fn before_newton(found: &[Compared]) -> Table {
     let rows = |of: &Compared| -> Vec<Vec<String>> {
         of.before_newton().into_iter().map(|(name, part)| row(of, name, part)).collect()
     };
-    Table {
-        name: "rtfem-methods-before-newton".to_owned(),
-        head: head(&["method", ">its time to 1e-3 over that of Newton's method"]),
-        rows: found.iter().flat_map(rows).collect(),
-    }
+    let head = ["method", ">its time to 1e-3 over that of Newton's method"];
+    of_cases("rtfem-methods-before-newton", &head, found.iter().flat_map(rows).collect())
 }
 
 fn budgets(found: &[Compared]) -> Table {
@@ -96,19 +86,16 @@ fn budgets(found: &[Compared]) -> Table {
         };
         BUDGETS.into_iter().flat_map(of).collect()
     };
-    Table {
-        name: "rtfem-methods-budgets".to_owned(),
-        head: head(&[
-            "method",
-            ">solver error within 1 ms a step",
-            ">total",
-            ">solver error within 4 ms",
-            ">total",
-            ">solver error within 16 ms",
-            ">total",
-        ]),
-        rows: by_method(found, |_| true, cells),
-    }
+    let head = [
+        "method",
+        ">solver error within 1 ms a step",
+        ">total",
+        ">solver error within 4 ms",
+        ">total",
+        ">solver error within 16 ms",
+        ">total",
+    ];
+    of_cases("rtfem-methods-budgets", &head, by_method(found, |_| true, cells))
 }
 
 fn failures(found: &[Compared]) -> Table {
@@ -122,11 +109,8 @@ fn failures(found: &[Compared]) -> Table {
             .chain([runs().count(), failed, inverted].map(|n| n.to_string()))
             .collect()
     };
-    Table {
-        name: "rtfem-methods-failures".to_owned(),
-        head: vec!["method", ">runs", ">failed", ">of them with inverted elements"],
-        rows: ALL.iter().map(row).collect(),
-    }
+    let head = ["method", ">runs", ">failed", ">of them with inverted elements"];
+    Table::new("rtfem-methods-failures", &head, ALL.iter().map(row).collect())
 }
 
 fn all_runs(found: &[Compared]) -> Table {
@@ -143,22 +127,10 @@ fn all_runs(found: &[Compared]) -> Table {
     };
     let of_method =
         |of: &Compared, swept: &Swept| swept.runs.iter().map(|run| cells(of, swept, run)).collect::<Vec<_>>();
-    Table {
-        name: "rtfem-methods".to_owned(),
-        head: head(&[
-            "method",
-            ">iterations",
-            ">parameter",
-            ">step, median (ms)",
-            ">solver error",
-            ">total error",
-            "outcome",
-        ]),
-        rows: found
-            .iter()
-            .flat_map(|of| of.methods.iter().flat_map(|swept| of_method(of, swept)).collect::<Vec<_>>())
-            .collect(),
-    }
+    let head =
+        ["method", ">iterations", ">parameter", ">step, median (ms)", ">solver error", ">total error", "outcome"];
+    let rows = found.iter().flat_map(|of| of.methods.iter().flat_map(|swept| of_method(of, swept)).collect::<Vec<_>>());
+    of_cases("rtfem-methods", &head, rows.collect())
 }
 
 /// A chart for each case at 1/60 s whose springs are fair: the solver error over the time of a step.
@@ -183,22 +155,10 @@ fn chart(of: &Compared) -> Chart {
         let dot = |run: &Run| {
             let iterations = run.iterations.map_or(String::new(), |n| format!("{} iterations\n", count(n)));
             let (x, y) = (run.milliseconds, run.solver_error?);
-            Some(Dot {
-                x,
-                y,
-                title: format!("{}\n{iterations}{x:.3} ms, {y:.1e}", swept.contender.name),
-                ..Dot::default()
-            })
+            Some(Dot::new(x, y, format!("{}\n{iterations}{x:.3} ms, {y:.1e}", swept.contender.name)))
         };
-        chart.series.push(Series {
-            name: swept.contender.name.to_owned(),
-            colour: number % fem_chart::COLOURS,
-            shape: number % fem_chart::SHAPES,
-            is_joined: true,
-            has_dots: true,
-            dots: swept.runs.iter().filter_map(dot).collect(),
-            ..Series::default()
-        });
+        let look = (number % fem_chart::COLOURS, number % fem_chart::SHAPES);
+        chart.series.push(Series::joined(swept.contender.name, look, swept.runs.iter().filter_map(dot)));
     }
     chart.guides.push(Guide::Horizontal(of.time_error, "time error of implicit Euler".to_owned()));
     chart

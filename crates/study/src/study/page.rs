@@ -1,0 +1,184 @@
+//! Parts of a page: statements that must be true, tables, pictures, with a paragraph about them.
+
+use fem_chart::{Chart, Picture};
+use serde::{Deserialize, Serialize};
+
+use super::Finished;
+use crate::machine::Machine;
+
+/// A statement that must be true of an outcome.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// The statement.
+    pub statement: String,
+    /// The figure of a thesis or another source; empty where it has none.
+    pub theirs: String,
+    /// Our figure.
+    pub ours: String,
+    /// True if the statement holds; `None` where a short run cannot tell.
+    pub holds: Option<bool>,
+}
+
+impl Mark {
+    /// A mark without a figure of another source.
+    pub fn new(statement: impl Into<String>, ours: impl Into<String>, holds: bool) -> Self {
+        Self { statement: statement.into(), theirs: String::new(), ours: ours.into(), holds: Some(holds) }
+    }
+
+    /// Adds the figure of the thesis.
+    pub fn beside(self, theirs: impl Into<String>) -> Self {
+        Self { theirs: theirs.into(), ..self }
+    }
+
+    /// Not judged if the run is too short for it.
+    pub fn unless(self, is_short: bool) -> Self {
+        Self { holds: self.holds.filter(|_| !is_short), ..self }
+    }
+
+    /// Whether it holds, in words.
+    pub fn verdict(&self) -> &'static str {
+        match self.holds {
+            Some(true) => "holds",
+            Some(false) => "does not hold",
+            None => "not judged",
+        }
+    }
+}
+
+/// Cells with a name for each column. A name that begins with `>` aligns its column to the right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Table {
+    /// Name of the file, without its ending.
+    pub name: String,
+    /// Names of the columns, with units.
+    pub head: Vec<String>,
+    /// Rows of as many cells.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// A column: its name, and its cell of a row.
+pub type Column<'a, Row> = (&'a str, &'a dyn Fn(&Row) -> String);
+
+impl Table {
+    /// A table of rows that are written already.
+    pub fn new(name: impl Into<String>, head: &[&str], rows: Vec<Vec<String>>) -> Self {
+        Self { name: name.into(), head: head.iter().map(|&name| name.to_owned()).collect(), rows }
+    }
+
+    /// A table with the cells of these columns.
+    pub fn of<Row>(name: impl Into<String>, rows: &[Row], columns: &[Column<Row>]) -> Self {
+        let head: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+        let row = |row: &Row| columns.iter().map(|(_, cell)| cell(row)).collect();
+        Self::new(name, &head, rows.iter().map(row).collect())
+    }
+}
+
+/// A picture with its caption.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Figure {
+    /// Name of the file, without its ending.
+    pub name: String,
+    /// The picture.
+    pub picture: Picture,
+    /// The caption.
+    pub caption: String,
+}
+
+/// A part of a page.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Part {
+    /// Its name as an argument of the program.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// A paragraph: the setting, the thesis' figure, the mistake behind it.
+    pub text: String,
+    /// Statements that must be true of it.
+    pub marks: Vec<Mark>,
+    /// Its numbers.
+    pub tables: Vec<Table>,
+    /// Its pictures.
+    pub figures: Vec<Figure>,
+}
+
+impl Part {
+    /// A part with its paragraph. The list that it stands in gives it a name and a title.
+    pub fn new(text: impl Into<String>) -> Self {
+        Self { text: text.into(), ..Self::default() }
+    }
+
+    /// The same with its name and title.
+    pub fn titled(self, name: &str, title: &str) -> Self {
+        Self { name: name.to_owned(), title: title.to_owned(), ..self }
+    }
+
+    /// Adds statements.
+    pub fn marks(mut self, marks: impl IntoIterator<Item = Mark>) -> Self {
+        self.marks.extend(marks);
+        self
+    }
+
+    /// Adds tables.
+    pub fn tables(mut self, tables: impl IntoIterator<Item = Table>) -> Self {
+        self.tables.extend(tables);
+        self
+    }
+
+    /// Adds a chart with its caption.
+    pub fn chart(self, name: impl Into<String>, chart: &Chart, caption: impl Into<String>) -> Self {
+        self.figures([Figure { name: name.into(), picture: chart.draw(), caption: caption.into() }])
+    }
+
+    /// Adds pictures.
+    pub fn figures(mut self, figures: impl IntoIterator<Item = Figure>) -> Self {
+        self.figures.extend(figures);
+        self
+    }
+
+    /// A part whose run has failed.
+    pub fn failed(problem: String) -> Self {
+        Self::new("").marks([Mark::new("the part runs to its end", problem, false)])
+    }
+
+    /// Returns true if no mark fails.
+    pub fn passes(&self) -> bool {
+        self.marks.iter().all(|mark| mark.holds != Some(false))
+    }
+}
+
+/// A page of several parts, with the machine that they ran on.
+#[derive(Clone, Debug)]
+pub struct Page<'a> {
+    /// Name of the file, without its ending.
+    pub name: &'a str,
+    /// Its title.
+    pub title: &'a str,
+    /// Its first paragraph.
+    pub text: &'a str,
+    /// The machine and the program.
+    pub machine: Machine,
+    /// The runs were shortened.
+    pub quick: bool,
+    /// Its parts.
+    pub parts: Vec<Part>,
+}
+
+impl Page<'_> {
+    /// All statements, each with its part.
+    pub fn marks(&self) -> impl Iterator<Item = (&Part, &Mark)> {
+        self.parts.iter().flat_map(|part| part.marks.iter().map(move |mark| (part, mark)))
+    }
+
+    /// The page as the end of a study: a line for each statement.
+    pub fn finished(&self) -> Finished {
+        let line = |(part, mark): (&Part, &Mark)| {
+            let verdict = if mark.holds == Some(false) { "DOES NOT HOLD" } else { mark.verdict() };
+            let theirs = if mark.theirs.is_empty() { String::new() } else { format!(" (thesis: {})", mark.theirs) };
+            let separator = if mark.ours.is_empty() { "" } else { ": " };
+            format!("{:9} {verdict}: {}{separator}{}{theirs}", part.name, mark.statement, mark.ours)
+        };
+        let failed = self.marks().filter(|(_, mark)| mark.holds == Some(false)).count();
+        let failed = (failed > 0).then(|| format!("{failed} marks do not hold"));
+        Finished { lines: self.marks().map(line).collect(), failed }
+    }
+}
