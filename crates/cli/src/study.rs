@@ -75,6 +75,18 @@ fn end_of(
     course: &Course,
     study: &impl fem_study::study::Study,
     out: &Path,
+    distribution: Distribution,
+    merged: &[PathBuf],
+) -> Result<(), End> {
+    end_told_by(&progress_bar(), course, study, out, distribution, merged)
+}
+
+/// The same with a bar that cases tell of their steps too.
+fn end_told_by(
+    bar: &ProgressBar,
+    course: &Course,
+    study: &impl fem_study::study::Study,
+    out: &Path,
     Distribution { shard, pack }: Distribution,
     merged: &[PathBuf],
 ) -> Result<(), End> {
@@ -87,13 +99,12 @@ fn end_of(
         say!("{}", out.join("submit.sh").display());
         return Ok(());
     }
-    let bar = progress_bar();
     let run = Run {
         out,
         shard: shard.unwrap_or(Shard::WHOLE),
         merged,
         sources: &course.data(),
-        tell: &|done, all, what| show(&bar, done, all, what),
+        tell: &|done, all, what| show(bar, done, all, what),
         remark: &|line| bar.suspend(|| eprintln!("{line}")),
     };
     let finished = carry_out(study, &run);

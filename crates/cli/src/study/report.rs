@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use fem_scene::Scene;
 use fem_study::linear::{self, LinearSolvers};
-use fem_study::report::{Report, first_files, report};
+use fem_study::report::ErrorStudy;
 use fem_study::studies::Settings;
 
 use super::Distribution;
@@ -58,20 +58,6 @@ pub fn run(course: &Course, arguments: &Arguments, merged: &[PathBuf]) -> Result
     let tell = |done: usize, all: usize, what: &str| super::show(&bar, done, all, what);
     let factory = |scene: &Scene| super::simulation(course, scene);
     let settings = Settings { data, out: out.clone(), is_quick: *quick, factory: &factory, tell: &tell };
-    let found = report(&settings, &scenes).map_err(End::Stopped)?;
-    bar.finish_and_clear();
-    print(&found);
-    for file in first_files(out) {
-        say!("{}", file.display());
-    }
-    Ok(())
-}
-
-fn print(found: &Report) {
-    for (study, answer) in found.scenes.iter().zip(found.answers()) {
-        say!("{}: {answer}", study.name);
-    }
-    let rows = found.rows();
-    let done = rows.iter().filter(|row| row.is_done()).count();
-    say!("{} runs; {} of them failed, as the tables show", rows.len(), rows.len() - done);
+    let study = ErrorStudy { settings, scenes, names };
+    super::end_told_by(&bar, course, &study, out, *distribution, merged)
 }

@@ -1,7 +1,8 @@
 //! Adaptive steps: estimated errors beside true ones.
 
 use fem_chart::page::{figure, table};
-use fem_chart::{Axis, Chart, Dot, Guide, Picture, Series};
+use fem_chart::{Axis, Chart, Dot, Guide, Picture, SHAPES, Series};
+use fem_model::Integrator;
 use maud::{Markup, html};
 
 use super::text::{number, seconds};
@@ -19,35 +20,18 @@ pub(super) fn chart(study: &SceneStudy) -> Option<Picture> {
     let (x, y) = ("sum of estimated errors / body length", "largest true error / body length");
     let mut chart = Chart::new(label, Axis::log(x), Axis::log(y));
     for (number, method) in methods(study).into_iter().enumerate() {
-        let dot = |row: &Row| {
-            Some(Dot {
-                x: row.errors.estimated?,
-                y: row.errors.time_linf?,
-                title: row.config.method.clone(),
-                ..Dot::default()
-            })
-        };
-        let dots = rows(study).filter(|row| row.config.integrator == method).filter_map(dot).collect();
-        let name = method.replace('_', " ");
-        let series = Series {
-            name,
-            colour: number,
-            shape: number % 5,
-            is_joined: true,
-            has_dots: true,
-            dots,
-            ..Series::default()
-        };
-        chart.series.push(series);
+        let dot = |row: &Row| Some(Dot::new(row.errors.estimated?, row.errors.time_linf?, row.config.method.clone()));
+        let dots = rows(study).filter(|row| row.config.integrator == method).filter_map(dot);
+        chart.series.push(Series::joined(method.name().replace('_', " "), (number, number % SHAPES), dots));
     }
     let through = chart.series.first()?.dots.first().map(|dot| (dot.x, dot.x))?;
     chart.guides.push(Guide::Slope { through, slope: 1.0, name: "equal".to_owned() });
     Some(chart.draw())
 }
 
-/// Names of the integrators with such runs.
-fn methods(study: &SceneStudy) -> Vec<&'static str> {
-    let mut methods: Vec<&'static str> = rows(study).map(|row| row.config.integrator).collect();
+/// The integrators with such runs.
+fn methods(study: &SceneStudy) -> Vec<Integrator> {
+    let mut methods: Vec<Integrator> = rows(study).map(|row| row.config.integrator).collect();
     methods.dedup();
     methods
 }

@@ -7,6 +7,7 @@ use crate::runs::costs::{self, KINDS};
 use crate::runs::row::Row;
 use crate::studies::scene::{SceneStudy, competing_error};
 use fem_chart::{Axis, Bar, Chart, Dot, Guide, Picture, Series, bars};
+use fem_model::Integrator;
 
 /// Charts that are written as files.
 pub fn files(report: &Report) -> Vec<(String, Picture)> {
@@ -52,22 +53,24 @@ pub fn title(row: &Row) -> String {
     )
 }
 
-/// Colour and shape of a method.
-fn look(method: &str) -> (usize, usize) {
-    match method {
-        "implicit Euler" => (0, 0),
-        "linearly implicit Euler" => (1, 1),
-        "Verlet" => (2, 2),
-        "RK4" => (3, 3),
-        "semi-implicit Euler" => (4, 4),
-        "RK2" => (5, 0),
-        "explicit Euler" => (6, 1),
-        "implicit midpoint" => (1, 3),
-        "Newmark" => (2, 4),
-        "generalized-α" => (3, 0),
-        "BDF2" => (4, 1),
-        "course: implicit Euler" => (7, 2),
-        "course: linearly implicit Euler" => (7, 3),
+/// Colour and shape of a method, from one of its runs.
+fn look(study: &SceneStudy, method: &str) -> (usize, usize) {
+    let run = study.rows.iter().find(|row| row.config.method == method);
+    let of_course = run.is_some_and(|row| row.config.pipeline == "course");
+    match run.map(|row| row.config.integrator) {
+        Some(Integrator::ImplicitEuler) if of_course => (7, 2),
+        Some(Integrator::LinearlyImplicitEuler) if of_course => (7, 3),
+        Some(Integrator::ImplicitEuler) => (0, 0),
+        Some(Integrator::LinearlyImplicitEuler) => (1, 1),
+        Some(Integrator::Verlet) => (2, 2),
+        Some(Integrator::Rk4) => (3, 3),
+        Some(Integrator::SemiImplicitEuler) => (4, 4),
+        Some(Integrator::Rk2) => (5, 0),
+        Some(Integrator::ExplicitEuler) => (6, 1),
+        Some(Integrator::ImplicitMidpoint) => (1, 3),
+        Some(Integrator::Newmark) => (2, 4),
+        Some(Integrator::GeneralizedAlpha) => (3, 0),
+        Some(Integrator::Bdf2) => (4, 1),
         _ => (8, 4),
     }
 }
@@ -105,24 +108,16 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
     let rows =
         |method: &str| study.rows.iter().filter(own).filter(|row| row.config.method == method).collect::<Vec<_>>();
     for method in methods(study) {
-        let (colour, shape) = look(&method);
+        let look = look(study, &method);
         let dots: Vec<Dot> = rows(&method).into_iter().filter_map(dot).collect();
         let name = if dots.is_empty() { format!("{method} (all runs failed)") } else { method };
-        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots, ..Series::default() });
+        chart.series.push(Series::joined(name, look, dots));
     }
     let others = study.rows.iter().filter(own).filter(|row| row.config.group != "method");
     let dots: Vec<Dot> = others.filter_map(dot).collect();
     if !dots.is_empty() {
-        let name = "variants: tolerance, solver, projection, precision".to_owned();
-        chart.series.push(Series {
-            name,
-            colour: 8,
-            shape: 4,
-            is_joined: false,
-            has_dots: true,
-            dots,
-            ..Series::default()
-        });
+        let name = "variants: tolerance, solver, projection, precision";
+        chart.series.push(Series { is_joined: false, ..Series::joined(name, (8, 4), dots) });
     }
     if is_moving {
         chart.guides.push(Guide::Vertical(4.0, "4 ms".to_owned()));
@@ -137,13 +132,14 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
 
 /// Slopes of order 1, 2 and 4 beside methods of these orders.
 fn slopes(chart: &Chart) -> Vec<Guide> {
-    let of = |(method, order): (&str, f64)| {
-        let series = chart.series.iter().find(|series| series.name == method)?;
+    let of = |integrator: Integrator| {
+        let facts = integrator.facts();
+        let (series, order) = (chart.series.iter().find(|series| series.name == facts.label)?, facts.order?);
         let dot = series.dots.get(series.dots.len().checked_sub(2)?)?;
         let through = (dot.x, dot.y / 2.5);
-        Some(Guide::Slope { through, slope: -order, name: format!("order {order}") })
+        Some(Guide::Slope { through, slope: -f64::from(order), name: format!("order {order}") })
     };
-    [("linearly implicit Euler", 1.0), ("Verlet", 2.0), ("RK4", 4.0)].into_iter().filter_map(of).collect()
+    [Integrator::LinearlyImplicitEuler, Integrator::Verlet, Integrator::Rk4].into_iter().filter_map(of).collect()
 }
 
 /// Error over time step.
@@ -152,14 +148,12 @@ pub fn convergence(study: &SceneStudy) -> Picture {
     let mut chart = Chart::new(label, Axis::log("time step (s)"), Axis::log("error in time / body length"));
     for method in methods(study) {
         let rows = study.rows.iter().filter(|row| row.config.method == method && row.is_done());
-        let dot =
-            |row: &Row| Some(Dot { x: row.config.dt, y: row.errors.time_l2?, title: title(row), ..Dot::default() });
+        let dot = |row: &Row| Some(Dot::new(row.config.dt, row.errors.time_l2?, title(row)));
         let dots: Vec<Dot> = rows.filter_map(dot).collect();
         let pairs: Vec<_> = dots.iter().map(|dot| (dot.x, dot.y)).collect();
         let order = asymptotic(&pairs, super::FINEST, super::FLOOR).filter(|order| order.points > 2);
         let name = order.map_or(method.clone(), |order| format!("{method}: {:.2}", order.value));
-        let (colour, shape) = look(&method);
-        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots, ..Series::default() });
+        chart.series.push(Series::joined(name, look(study, &method), dots));
     }
     chart.draw()
 }
@@ -176,20 +170,9 @@ pub fn drift(study: &SceneStudy) -> Option<Picture> {
             .collect();
         let Some(&place) = places.get(places.len() / 2) else { continue };
         let scale = study.energy_scale;
-        let dots =
-            study.histories[place].iter().map(|(time, energy)| Dot { x: *time, y: energy / scale, ..Dot::default() });
-        let (colour, _) = look(method);
+        let dots = study.histories[place].iter().map(|(time, energy)| (*time, energy / scale));
         let name = format!("{method}, dt = {}", step(study.rows[place].config.dt));
-        let dots = dots.collect();
-        chart.series.push(Series {
-            name,
-            colour,
-            shape: 0,
-            is_joined: true,
-            has_dots: false,
-            dots,
-            ..Series::default()
-        });
+        chart.series.push(Series::line(name, look(study, method).0, dots));
     }
     (study.energy_scale > 0.0).then(|| chart.draw())
 }

@@ -9,9 +9,11 @@ mod space_charts;
 mod space_page;
 pub(crate) mod text;
 
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::Path;
 
 use maud::{Markup, html};
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::csv_table::csv_text;
@@ -20,12 +22,12 @@ use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
 use crate::runs::row::Row;
 use crate::runs::table;
 use crate::space::{locking, manufactured};
+use crate::studies::Settings;
 use crate::studies::scene::{self, Question, SceneStudy};
 use crate::studies::space::{self, SpaceOrders, SpaceStudy};
-use crate::studies::{Settings, make_folders};
+use crate::study::{Case, Finished, Found, Study};
 use fem_chart::page::page;
 use fem_mesh::write::save_bytes;
-use fem_model::Integrator;
 use fem_scene::{Scene, parse};
 
 /// The results of a report.
@@ -61,23 +63,91 @@ pub struct Observed {
 /// A small soft body with a clamp, gravity and a drag: its initial acceleration is not zero, and its loads depend on time.
 const ORDERS: &str = include_str!("orders.toml");
 
-/// Studies the scenes and writes the report into the folder of the settings. An error names the file or the scene.
-pub fn report(settings: &Settings, scenes: &[Scene]) -> Result<Report, String> {
-    make_folders(&settings.out)?;
-    let machine = Machine::this(&settings.data);
-    let small = parse(ORDERS, Path::new("orders.toml")).map_err(|error| error.to_string())?;
-    let orders = scene::study(settings, &small, Question::Order)?;
-    let space = space::study(settings)?;
-    let studied = scenes.iter().map(|scene| {
-        scene::study(settings, scene, Question::Choice).map_err(|error| format!("{}: {error}", scene.name))
-    });
-    let scenes = studied.collect::<Result<_, _>>()?;
-    let report = Report { machine, is_quick: settings.is_quick, scenes, orders, space };
-    write(&report, &settings.out)?;
-    Ok(report)
+/// The study of scenes, of the orders on a small body, and of errors in space.
+pub struct ErrorStudy<'a> {
+    /// Folders, extent, and the builder of simulations.
+    pub settings: Settings<'a>,
+    /// The scenes.
+    pub scenes: Vec<Scene>,
+    /// Their names as arguments of the program.
+    pub names: &'a [String],
+}
+
+/// What a case of it becomes.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Studied {
+    /// The small body.
+    Orders(SceneStudy),
+    /// Errors in space.
+    Space(SpaceStudy),
+    /// A requested scene.
+    Scene(SceneStudy),
+    /// A scene that cannot be studied, and why.
+    Failed(String),
+}
+
+impl Study for ErrorStudy<'_> {
+    type Row = Studied;
+
+    fn arguments(&self) -> Vec<String> {
+        let options = self.settings.is_quick.then(|| "--quick".to_owned());
+        ["report".to_owned()].into_iter().chain(self.names.iter().cloned()).chain(options).collect()
+    }
+
+    fn cases(&self) -> Vec<Case<'_, Studied>> {
+        let failed = |problem| Studied::Failed(problem);
+        let orders = move || {
+            let small = parse(ORDERS, Path::new("orders.toml")).map_err(|error| error.to_string());
+            let found = small.and_then(|small| scene::study(&self.settings, &small, Question::Order));
+            found.map_or_else(failed, Studied::Orders)
+        };
+        let space = move || space::study(&self.settings).map_or_else(failed, Studied::Space);
+        let of_scene = |of: &'_ Scene| {
+            let found = scene::study(&self.settings, of, Question::Choice);
+            found.map_or_else(|problem| Studied::Failed(format!("{}: {problem}", of.name)), Studied::Scene)
+        };
+        let first = [Case::new("orders", orders), Case::new("space", space)];
+        first.into_iter().chain(self.scenes.iter().map(|of| Case::new(&of.name, move || of_scene(of)))).collect()
+    }
+
+    fn finish(&self, found: Found<Studied>, out: &Path) -> io::Result<Finished> {
+        let problems: Vec<String> = found
+            .rows
+            .iter()
+            .filter_map(|row| match row {
+                Studied::Failed(problem) => Some(problem.clone()),
+                _ => None,
+            })
+            .collect();
+        let report = Report::new(self.settings.is_quick, found);
+        write(&report, out).map_err(io::Error::other)?;
+        let answers =
+            report.scenes.iter().zip(report.answers()).map(|(study, answer)| format!("{}: {answer}", study.name));
+        let rows = report.rows();
+        let failed = rows.iter().filter(|row| !row.is_done()).count();
+        let count = format!("{} runs; {failed} of them failed, as the tables show", rows.len());
+        let files = ["report.html", "runs.csv"].map(|file| out.join(file).display().to_string());
+        let lines = answers.chain([count]).chain(files).collect();
+        Ok(Finished { lines, failed: (!problems.is_empty()).then(|| problems.join("; ")) })
+    }
 }
 
 impl Report {
+    /// The report of the rows of a study.
+    pub fn new(is_quick: bool, found: Found<Studied>) -> Self {
+        let (orders, space, scenes) = Default::default();
+        let mut report = Self { machine: found.machine, is_quick, scenes, orders, space };
+        for row in found.rows {
+            match row {
+                Studied::Orders(study) => report.orders = study,
+                Studied::Space(study) => report.space = study,
+                Studied::Scene(study) => report.scenes.push(study),
+                Studied::Failed(_) => {}
+            }
+        }
+        report
+    }
+
     /// Rows of all studies.
     pub fn rows(&self) -> Vec<Row> {
         let studies = std::iter::once(&self.orders).chain(&self.scenes);
@@ -116,7 +186,7 @@ fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
         let rows = study.rows.iter().filter(|row| row.config.method == method && row.is_done());
         let pairs: Vec<_> = rows.filter_map(|row| Some((row.config.dt, row.errors.time_l2?))).collect();
         let integrator = study.rows.iter().find(|row| row.config.method == method)?.config.integrator;
-        let expected = f64::from(Integrator::from_name(integrator)?.facts().order?);
+        let expected = f64::from(integrator.facts().order?);
         let order = asymptotic(&pairs, FINEST, FLOOR).filter(|order| order.points > 2);
         Some(Observed { scene: study.name.clone(), method: method.to_owned(), of: "dt", order, expected })
     };
@@ -210,9 +280,4 @@ fn as_json(report: &Report) -> Value {
             "poisson": bent.poisson, "cells_per_metre": bent.cells, "tip_over_timoshenko": bent.ratio })).collect::<Vec<_>>(),
         "runs": table::json(&report.rows()),
     })
-}
-
-/// The files of a report to open first.
-pub fn first_files(out: &Path) -> [PathBuf; 2] {
-    [out.join("report.html"), out.join("runs.csv")]
 }

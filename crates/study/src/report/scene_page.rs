@@ -111,7 +111,7 @@ fn cells_of(row: &Row) -> [String; 11] {
 }
 
 fn front(study: &SceneStudy) -> Markup {
-    let competes = |row: &&Row| ["front", "tie"].contains(&row.standing) && row.config.nodes == study.size.0;
+    let competes = |row: &&Row| ["front", "tie"].contains(&row.standing.as_str()) && row.config.nodes == study.size.0;
     let mut rows: Vec<&Row> = study.rows.iter().filter(competes).collect();
     rows.sort_by(|a, b| a.seconds().unwrap_or(f64::NAN).total_cmp(&b.seconds().unwrap_or(f64::NAN)));
     let standing = |row: &Row| if row.standing == "front" { "front" } else { "within the spread" }.to_owned();

@@ -17,20 +17,11 @@ pub fn in_space(space: &SpaceStudy) -> Picture {
                 let error = if norm == "L2" { row.errors.space_l2 } else { row.errors.space_h1 };
                 let title =
                     format!("{law}, {} nodes\nerror in {norm} {}\n{}", row.config.nodes, number(error), row.config.id);
-                Some(Dot { x: space::spacing(row), y: error?, title, ..Dot::default() })
+                Some(Dot::new(space::spacing(row), error?, title))
             };
             let name =
                 format!("{law}, {norm}: {}", order.map_or("–".to_owned(), |order| format!("{:.2}", order.value)));
-            let dots = rows.filter_map(dot).collect();
-            chart.series.push(Series {
-                name,
-                colour: place,
-                shape,
-                is_joined: true,
-                has_dots: true,
-                dots,
-                ..Series::default()
-            });
+            chart.series.push(Series::joined(name, (place, shape), rows.filter_map(dot)));
         }
     }
     chart.draw()
@@ -52,17 +43,10 @@ pub fn time_in_plane(space: &SpaceStudy) -> Picture {
                 number(Some(error)),
                 seconds(Some(time))
             );
-            Some(Dot { x: time, y: error, title, ..Dot::default() })
+            Some(Dot::new(time, error, title))
         };
-        chart.series.push(Series {
-            name: orders.scene.trim_start_matches("manufactured-").to_owned(),
-            colour: place,
-            shape: place,
-            is_joined: true,
-            has_dots: true,
-            dots: rows.filter_map(dot).collect(),
-            ..Series::default()
-        });
+        let name = orders.scene.trim_start_matches("manufactured-");
+        chart.series.push(Series::joined(name, (place, place), rows.filter_map(dot)));
     }
     chart.draw()
 }
@@ -75,23 +59,11 @@ pub fn locking(space: &SpaceStudy) -> Picture {
     chart.guides.push(Guide::Horizontal(1.0, "Timoshenko".to_owned()));
     for (place, poisson) in crate::space::locking::RATIOS.into_iter().enumerate() {
         let beams = space.tip_deflections.iter().filter(|bent| bent.poisson == poisson);
-        let dot = |bent: &crate::space::locking::TipDeflection| Dot {
-            x: 1.0 / bent.cells as f64,
-            y: bent.ratio,
-            title: format!("ν = {poisson}, {} cells\n{} of theory", bent.cells, number(Some(bent.ratio))),
-            ..Dot::default()
+        let dot = |bent: &crate::space::locking::TipDeflection| {
+            let title = format!("ν = {poisson}, {} cells\n{} of theory", bent.cells, number(Some(bent.ratio)));
+            Dot::new(1.0 / bent.cells as f64, bent.ratio, title)
         };
-        let dots = beams.map(dot).collect();
-        let name = format!("ν = {poisson}");
-        chart.series.push(Series {
-            name,
-            colour: place,
-            shape: place,
-            is_joined: true,
-            has_dots: true,
-            dots,
-            ..Series::default()
-        });
+        chart.series.push(Series::joined(format!("ν = {poisson}"), (place, place), beams.map(dot)));
     }
     chart.draw()
 }

@@ -1,7 +1,9 @@
 //! The observed order of convergence: the slope of log error over log step by least squares, with its confidence interval.
 
+use serde::{Deserialize, Serialize};
+
 /// A fitted order of convergence.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConvergenceOrder {
     /// p of error ∝ step^p.
     pub value: f64,

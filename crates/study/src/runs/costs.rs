@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
+
 use crate::reference::Equations;
 use crate::runs::row::Row;
 use fem_engine::forces::Moment;
@@ -10,7 +12,7 @@ use fem_engine::solvers::SolverChoice;
 use fem_scene::simulate::quantile;
 
 /// Time of one call, s.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Costs {
     /// Internal forces.
     pub force: f64,

@@ -1,17 +1,17 @@
 //! Volumetric locking of linear tetrahedra: the tip deflection of a cantilever relative to Timoshenko's beam theory, for Poisson's
 //! ratios up to ½ and a sequence of meshes.
 
-use std::path::Path;
-
 use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
-use fem_engine::simulator;
-use fem_scene::{body, parse};
+use fem_model::simulation::Simulation;
+use serde::{Deserialize, Serialize};
+
+use crate::scenes::{double, scene_and_body};
 
 /// Poisson's ratios.
 pub const RATIOS: [f64; 6] = [0.0, 0.3, 0.45, 0.49, 0.499, 0.4999];
 
 /// The tip deflection of one beam.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TipDeflection {
     /// Poisson's ratio.
     pub poisson: f64,
@@ -29,13 +29,11 @@ pub fn bend(poisson: f64, cells: usize) -> Result<TipDeflection, String> {
          plane = {{ axis = \"x\", below = 1e-9 }}\n[[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n\
          force_per_area = [0, 0, -50]\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n"
     );
-    let scene = parse(&text, Path::new("locking.toml")).map_err(|error| error.to_string())?;
-    let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
-    let mut simulation =
-        simulator::build(body.clone(), &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())?;
+    let (scene, body) = scene_and_body(&text, None).map_err(|error| error.to_string())?;
+    let mut simulation = double(&text, None)?;
     simulation.step().map_err(|failure| failure.to_string())?;
     let expected = expected_tip_displacement(&body, &scene.method()).ok_or("the beam is no cantilever")?;
-    Ok(TipDeflection { poisson, cells, ratio: tip_displacement(&*simulation).z / expected.z })
+    Ok(TipDeflection { poisson, cells, ratio: tip_displacement(&simulation).z / expected.z })
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Errors in space of boxes by Richardson extrapolation over three nested meshes, each with half the cell size of the one before.
 
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
 use crate::space::norms;
 use fem_model::BodyMesh;
@@ -17,7 +18,7 @@ pub struct Level {
 }
 
 /// Extrapolated errors of three levels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RichardsonEstimate {
     /// Observed orders in L2 and H1.
     pub orders: (f64, f64),

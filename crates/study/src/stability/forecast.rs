@@ -1,12 +1,13 @@
 //! Predictions of linear stability theory for a clamped body, and the runs that test them.
 
 use fem_engine::simulator::Simulator;
+use fem_model::Integrator;
 
 use super::case::{Finding, Outcome};
 use super::initial_state::Random;
 use super::march::march;
 use super::scene_text::{CLAMPED, SceneText};
-use super::theory::{self, HighestMode};
+use super::theory::{self, HighestMode, Scheme};
 use crate::study::Deadline;
 
 /// Initial amplitude of the highest mode, m; the body's elements have edges of 1 m.
@@ -31,11 +32,12 @@ pub struct Forecast {
 }
 
 /// Predicts the outcome of the highest mode at z = ω dt within `most` steps.
-pub fn forecast(integrator: &str, z: f64, most: usize) -> Forecast {
-    let Some(limit) = theory::limit(integrator) else {
+pub fn forecast(scheme: impl Into<Scheme>, z: f64, most: usize) -> Forecast {
+    let scheme = scheme.into();
+    let Some(limit) = theory::limit(scheme) else {
         return Forecast { steps: most.min(60), expected: Outcome::Survives, margin: None };
     };
-    let growth = theory::growth(integrator, z);
+    let growth = theory::growth(scheme, z);
     let (steps, expected) = if growth > 0.0 && 1.5 * TO_DIVERGENCE / growth < most as f64 {
         (20 + (1.5 * TO_DIVERGENCE / growth) as usize, Outcome::Explodes)
     } else if growth > 0.0 {
@@ -56,13 +58,13 @@ pub fn try_forecast(text: &SceneText, forecast: Forecast, deadline: Deadline) ->
 }
 
 /// The clamped body of the forecasts and the maps.
-pub fn clamped(integrator: &'static str, model: &'static str, young: f64, dt: f64) -> SceneText {
+pub fn clamped(integrator: Integrator, model: &'static str, young: f64, dt: f64) -> SceneText {
     SceneText { young, dt, ..SceneText::small(integrator, model).with(CLAMPED) }
 }
 
 /// The highest natural frequency of that body with this material and E = 1 Pa, 1/s. It is proportional to √E.
 pub fn unit_omega(model: &'static str) -> f64 {
-    let simulation = clamped("verlet", model, 1.0, 1.0).build();
+    let simulation = clamped(Integrator::Verlet, model, 1.0, 1.0).build();
     let mode = simulation.ok().and_then(|simulation| highest_mode(&simulation).ok());
     mode.map_or(f64::NAN, |mode| mode.omega)
 }

@@ -57,7 +57,7 @@ impl Study for Stability {
         fs::write(out.join("stability.json"), serde_json::to_string_pretty(&results)? + "\n")?;
         for map in &results.maps {
             let picture = page::picture(map).standalone();
-            fs::write(out.join(format!("stability-{}.svg", map.integrator)), picture)?;
+            fs::write(out.join(format!("stability-{}.svg", map.integrator.name())), picture)?;
         }
         fs::write(out.join("stability.html"), page::render(&results))?;
         Ok(results.finished(out))

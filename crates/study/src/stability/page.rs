@@ -69,7 +69,7 @@ fn stiffness_and_step(maps: &[Map]) -> Markup {
         let unexpected = map.cells.iter().filter(|cell| cell.outcome != cell.expected).count();
         let steps = map.cells.iter().map(|cell| cell.steps).max().unwrap_or_default();
         html! {
-            b { (words(&map.integrator)) } ": " (exploded) " of " (map.cells.len()) " runs diverge, " (unexpected)
+            b { (words(map.integrator)) } ": " (exploded) " of " (map.cells.len()) " runs diverge, " (unexpected)
             " against the prediction; up to " (steps) " steps."
         }
     };
@@ -88,8 +88,8 @@ fn stiffness_and_step(maps: &[Map]) -> Markup {
 }
 
 /// The name of an integrator at the start of a sentence.
-fn words(name: &str) -> String {
-    let label = Integrator::from_name(name).map_or(name, |integrator| integrator.facts().label);
+fn words(integrator: Integrator) -> String {
+    let label = integrator.facts().label;
     let mut letters = label.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
@@ -113,12 +113,12 @@ pub fn picture(map: &Map) -> Picture {
         0 => format!("1e{}", column as i32 / PARTS_OF_DT - 5),
         _ => String::new(),
     };
-    let limit = match map.integrator.as_str() {
-        "explicit_euler" | "rk2" => format!("growth by e⁷ in {} steps", map.most_steps),
+    let limit = match map.integrator.facts().stability_limit {
+        Some(0.0) => format!("growth by e⁷ in {} steps", map.most_steps),
         _ => "dt = limit / ω_max".to_owned(),
     };
     HeatMap {
-        label: format!("{}: stable and diverging (×) runs", words(&map.integrator)),
+        label: format!("{}: stable and diverging (×) runs", words(map.integrator)),
         columns: ("time step dt (s)".to_owned(), (0..TIME_STEPS).map(dt).collect()),
         rows: (
             "Young's modulus E (Pa)".to_owned(),

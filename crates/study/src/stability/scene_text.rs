@@ -1,41 +1,25 @@
 //! Scenes of this study as the text of scene files, so that every row can be reproduced.
 
-use std::path::Path;
-
+use fem_model::{Body, Family, Integrator};
 use nalgebra::Vector3;
 
 use super::case::{Case, Finding, Outcome, SMALLEST_J};
+use crate::scenes::{scene_and_body, simulator};
 use crate::study::Deadline;
 
 use fem_engine::simulator::{Compiled, Simulator};
 use fem_mesh::TetrahedralMesh;
-use fem_scene::{Scene, SceneError, body, body_of, parse};
+use fem_scene::{Scene, SceneError};
 
-/// The integrators in time.
-pub const DYNAMIC: [&str; 12] = [
-    "explicit_euler",
-    "semi_implicit_euler",
-    "rk2",
-    "rk4",
-    "verlet",
-    "linearly_implicit_euler",
-    "implicit_euler",
-    "implicit_midpoint",
-    "newmark",
-    "generalized_alpha",
-    "bdf2",
-    "bathe",
-];
-
-/// The implicit integrators of second order.
-pub const SECOND_ORDER: [&str; 5] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2", "bathe"];
+/// The integrators in time that are not iterated.
+pub fn dynamic() -> impl Iterator<Item = Integrator> {
+    let is_dynamic = |of: &Integrator| !of.is_iterated() && of.facts().family != Family::Equilibrium;
+    Integrator::ALL.into_iter().filter(is_dynamic)
+}
 
 /// The iterated methods.
-pub const ITERATED: [&str; 4] = ["pbd", "xpbd", "vbd", "projective_dynamics"];
-
-/// Returns true if an integrator minimizes an energy in each step.
-pub fn has_newton(integrator: &str) -> bool {
-    ["implicit_euler", "static"].contains(&integrator) || SECOND_ORDER.contains(&integrator)
+pub fn iterated() -> impl Iterator<Item = Integrator> {
+    Integrator::ALL.into_iter().filter(|of| of.is_iterated())
 }
 
 /// The materials.
@@ -55,7 +39,7 @@ pub struct SceneText {
     /// kg/m³
     pub density: f64,
     /// The integrator.
-    pub integrator: &'static str,
+    pub integrator: Integrator,
     /// s
     pub dt: f64,
     /// Further tables.
@@ -70,7 +54,7 @@ pub const LUMPED: &str = "[mass]\nlumped = true\n";
 
 impl SceneText {
     /// A box of 2 × 1 × 1 m of soft rubber, with cells of 1 m.
-    pub fn small(integrator: &'static str, model: &'static str) -> Self {
+    pub fn small(integrator: Integrator, model: &'static str) -> Self {
         Self {
             mesh: "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 1 }".to_owned(),
             model,
@@ -84,7 +68,7 @@ impl SceneText {
     }
 
     /// The same box with cells of 0.5 m.
-    pub fn finer(integrator: &'static str, model: &'static str) -> Self {
+    pub fn finer(integrator: Integrator, model: &'static str) -> Self {
         let mesh = "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 2 }".to_owned();
         Self { mesh, ..Self::small(integrator, model) }
     }
@@ -102,7 +86,8 @@ impl SceneText {
         let poisson = if *model == "mass_spring" { String::new() } else { format!("poisson = {poisson}\n") };
         format!(
             "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n{poisson}\
-             density = {density:e}\n[time]\ndt = {dt:e}\nintegrator = \"{integrator}\"\n{rest}"
+             density = {density:e}\n[time]\ndt = {dt:e}\nintegrator = \"{}\"\n{rest}",
+            integrator.name()
         )
     }
 
@@ -118,7 +103,7 @@ impl SceneText {
             family,
             case: case.into(),
             parameters,
-            integrator: self.integrator.to_owned(),
+            integrator: self.integrator.name().to_owned(),
             material: self.model.to_owned(),
             expected: Outcome::Survives,
             margin_is: SMALLEST_J,
@@ -127,16 +112,9 @@ impl SceneText {
         }
     }
 
-    /// The scene.
-    pub fn scene(&self) -> Result<Scene, SceneError> {
-        parse(&self.text(), Path::new("case.toml"))
-    }
-
     /// The simulation of the scene, at rest.
     pub fn build(&self) -> Result<Simulator<f64>, Finding> {
-        let scene = self.scene().map_err(refused)?;
-        let body = body(&scene, Path::new("")).map_err(refused)?;
-        Simulator::new(body, &scene.method()).map_err(|refusal| refused(scene.refused(refusal)))
+        simulator(&self.text(), None).map_err(refused)
     }
 
     /// The simulation on another mesh.
@@ -146,9 +124,12 @@ impl SceneText {
 
     /// The simulation on another mesh in a precision, which the scene must name too.
     pub fn build_on_as<T: Compiled>(&self, mesh: TetrahedralMesh) -> Result<Simulator<T>, Finding> {
-        let scene = self.scene().map_err(refused)?;
-        let body = body_of(&scene, mesh, Path::new("")).map_err(refused)?;
-        Simulator::new(body, &scene.method()).map_err(|refusal| refused(scene.refused(refusal)))
+        simulator(&self.text(), Some(mesh.into())).map_err(refused)
+    }
+
+    /// The scene and its body.
+    pub fn scene_and_body(&self) -> Result<(Scene, Body), Finding> {
+        scene_and_body(&self.text(), None).map_err(refused)
     }
 }
 

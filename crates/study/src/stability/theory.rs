@@ -6,40 +6,51 @@
 use fem_engine::integrators::MassInverse;
 use fem_engine::simulator::double::{System, add_stiffness_times, solve_mass};
 use fem_engine::vector::{dot, norm};
+use fem_model::Integrator;
 use fem_model::simulation::Cause;
 
-/// Newmark's method with β = 1/12, Fox and Goodwin's, has this name here: the other β of the study are stable at any time step.
-pub const FOX_GOODWIN: &str = "newmark with beta = 1/12";
+/// A method with its coefficients.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scheme {
+    /// With those that it has by default.
+    Of(Integrator),
+    /// Newmark's method with β = 1/12, Fox and Goodwin's: the other β of the study are stable at any time step.
+    FoxGoodwin,
+}
+
+impl From<Integrator> for Scheme {
+    fn from(integrator: Integrator) -> Self {
+        Self::Of(integrator)
+    }
+}
 
 /// The stability limit of ω dt; `None` for unconditionally stable integrators.
-pub fn limit(integrator: &str) -> Option<f64> {
-    match integrator {
-        "explicit_euler" | "rk2" => Some(0.0),
-        "semi_implicit_euler" | "verlet" => Some(2.0),
-        "rk4" => Some(8.0f64.sqrt()),
-        FOX_GOODWIN => Some(6.0f64.sqrt()),
-        _ => None,
+pub fn limit(scheme: impl Into<Scheme>) -> Option<f64> {
+    match scheme.into() {
+        Scheme::Of(integrator) => integrator.facts().stability_limit,
+        Scheme::FoxGoodwin => Some(6.0f64.sqrt()),
     }
 }
 
 /// Logarithm of the growth factor per step: the spectral radius of the amplification matrix for ẍ = −ω² x.
-pub fn growth(integrator: &str, z: f64) -> f64 {
+pub fn growth(scheme: impl Into<Scheme>, z: f64) -> f64 {
+    use Integrator::{ExplicitEuler, ImplicitMidpoint, Newmark, Rk2, Rk4, SemiImplicitEuler, Verlet};
     let z2 = z * z;
-    match integrator {
+    match scheme.into() {
         // |1 + iz|
-        "explicit_euler" => 0.5 * z2.ln_1p(),
+        Scheme::Of(ExplicitEuler) => 0.5 * z2.ln_1p(),
         // |1 + iz − z²/2|
-        "rk2" => 0.5 * (0.25 * z2 * z2).ln_1p(),
+        Scheme::Of(Rk2) => 0.5 * (0.25 * z2 * z2).ln_1p(),
         // |1 + iz − z²/2 − iz³/6 + z⁴/24|
-        "rk4" => 0.5 * (z2.powi(3) * (z2 / 576.0 - 1.0 / 72.0)).ln_1p(),
+        Scheme::Of(Rk4) => 0.5 * (z2.powi(3) * (z2 / 576.0 - 1.0 / 72.0)).ln_1p(),
         // trace 2 − z², determinant 1
-        "semi_implicit_euler" | "verlet" if z > 2.0 => (0.5 * z2 - 1.0).acosh(),
-        "semi_implicit_euler" | "verlet" => 0.0,
+        Scheme::Of(SemiImplicitEuler | Verlet) if z > 2.0 => (0.5 * z2 - 1.0).acosh(),
+        Scheme::Of(SemiImplicitEuler | Verlet) => 0.0,
         // trace 2 − z²/(1 + z²/12), determinant 1
-        FOX_GOODWIN if z2 > 6.0 => (0.5 * z2 / (1.0 + z2 / 12.0) - 1.0).acosh(),
-        FOX_GOODWIN => 0.0,
+        Scheme::FoxGoodwin if z2 > 6.0 => (0.5 * z2 / (1.0 + z2 / 12.0) - 1.0).acosh(),
+        Scheme::FoxGoodwin => 0.0,
         // Roots on the unit circle.
-        "implicit_midpoint" | "newmark" => 0.0,
+        Scheme::Of(ImplicitMidpoint | Newmark) => 0.0,
         // 1 / |1 − iz|; generalized-α and BDF2 damp too.
         _ => -0.5 * z2.ln_1p(),
     }
@@ -91,15 +102,20 @@ fn scale(x: &mut [[f64; 3]], factor: f64) {
 
 #[cfg(test)]
 mod tests {
+    use fem_model::Integrator;
+
     use super::{growth, limit};
 
     #[test]
     fn vibrations_grow_above_the_limit_only() {
-        for integrator in ["semi_implicit_euler", "verlet", "rk4"] {
+        for integrator in [Integrator::SemiImplicitEuler, Integrator::Verlet, Integrator::Rk4] {
             let limit = limit(integrator).unwrap();
-            assert!(growth(integrator, 0.99 * limit) <= 0.0 && growth(integrator, 1.01 * limit) > 0.03, "{integrator}");
+            assert!(
+                growth(integrator, 0.99 * limit) <= 0.0 && growth(integrator, 1.01 * limit) > 0.03,
+                "{integrator:?}"
+            );
         }
-        assert!(growth("rk2", 0.1) > 0.0 && growth("explicit_euler", 0.1) > 0.0);
-        assert!(growth("implicit_euler", 1e6) < -13.0);
+        assert!(growth(Integrator::Rk2, 0.1) > 0.0 && growth(Integrator::ExplicitEuler, 0.1) > 0.0);
+        assert!(growth(Integrator::ImplicitEuler, 1e6) < -13.0);
     }
 }

@@ -18,11 +18,11 @@ pub struct Settings<'a> {
     /// Builds simulations of both pipelines.
     pub factory: &'a Factory<'a>,
     /// Receives the number of finished parts, the number of all parts, and the name of the next one.
-    pub tell: &'a dyn Fn(usize, usize, &str),
+    pub tell: &'a (dyn Fn(usize, usize, &str) + Sync),
 }
 
 /// Creates the folders of a study.
-pub fn make_folders(out: &Path) -> Result<(), String> {
+pub(crate) fn make_folders(out: &Path) -> Result<(), String> {
     let states = out.join("states");
     std::fs::create_dir_all(&states)
         .map_err(|error| format!("{}: {error}; name a folder that can be created", states.display()))

@@ -9,10 +9,12 @@ use crate::space::locking::{self, TipDeflection};
 use crate::space::manufactured;
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
+use fem_model::Integrator;
 use fem_model::element::Element;
+use serde::{Deserialize, Serialize};
 
 /// The results.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct SpaceStudy {
     /// A row for each material and mesh of the manufactured solution.
     pub rows: Vec<Row>,
@@ -23,14 +25,31 @@ pub struct SpaceStudy {
 }
 
 /// Orders in space of a material with one kind of elements.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpaceOrders {
     /// Name of the scene.
     pub scene: String,
-    /// The elements.
+    /// The elements, by their name.
+    #[serde(with = "by_name")]
     pub element: &'static Element,
     /// Observed orders in L2 and H1.
     pub observed: [Option<ConvergenceOrder>; 2],
+}
+
+/// Elements are stored by their names.
+mod by_name {
+    use fem_model::element::Element;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(element: &Element, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(element.name)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Element, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Element::ALL.into_iter().find(|element| element.name == name).ok_or_else(|| D::Error::custom("no such element"))
+    }
 }
 
 /// Number of meshes of a fitted order: coarser ones are outside the asymptotic range.
@@ -38,6 +57,7 @@ const FINEST: usize = 2;
 
 /// Solves on a sequence of meshes.
 pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
+    super::make_folders(&settings.out)?;
     let mut space = SpaceStudy::default();
     for element in Element::ALL {
         for model in ["linear", "neo_hookean"] {
@@ -106,27 +126,27 @@ fn solved(settings: &Settings, model: &str, element: &Element, cells: usize, num
     write_reference(&settings.out.join(&reference_state), mesh, scene.material.density, None)?;
     let moduli = moduli(&scene.material.value());
     let seconds = Some(solved.seconds);
+    let config = Configuration {
+        id,
+        scene: scene.name.clone(),
+        group: "space".to_owned(),
+        method: format!("static, {cells} cells"),
+        pipeline: "engine".to_owned(),
+        mesh_hash: norms::mesh_hash(mesh),
+        nodes: mesh.vertices().len(),
+        elements: mesh.elements(),
+        young: moduli.map(|moduli| moduli.young),
+        poisson: moduli.map(|moduli| moduli.poisson),
+        integrator: Integrator::Static,
+        projection: "when_needed".to_owned(),
+        solver: names::solver_name(scene),
+        dt: 1.0,
+        steps: 1,
+        tolerance: Some(1e-13),
+        max_iterations: Some(50),
+        precision: "f64".to_owned(),
+    };
     Ok(Row {
-        config: Configuration {
-            id,
-            scene: scene.name.clone(),
-            group: "space".to_owned(),
-            method: format!("static, {cells} cells"),
-            pipeline: "engine",
-            mesh_hash: norms::mesh_hash(mesh),
-            nodes: mesh.vertices().len(),
-            elements: mesh.elements(),
-            young: moduli.map(|moduli| moduli.young),
-            poisson: moduli.map(|moduli| moduli.poisson),
-            integrator: "static",
-            projection: "when_needed",
-            solver: names::solver_name(scene),
-            dt: 1.0,
-            steps: 1,
-            tolerance: Some(1e-13),
-            max_iterations: Some(50),
-            precision: "f64",
-        },
         times: Times {
             step_ms: [seconds.map(|s| 1e3 * s); 3],
             total_s: [seconds; 3],
@@ -135,9 +155,6 @@ fn solved(settings: &Settings, model: &str, element: &Element, cells: usize, num
         },
         errors: Errors { space_l2: Some(solved.l2), space_h1: Some(solved.h1), ..Errors::default() },
         counters: solved.counters,
-        status: "done".to_owned(),
-        state,
-        reference_state,
-        ..Row::default()
+        ..Row::new(config, state, reference_state)
     })
 }

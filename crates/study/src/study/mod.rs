@@ -8,6 +8,8 @@ mod output;
 pub mod pack;
 mod page;
 mod runner;
+#[cfg(test)]
+mod tests;
 
 use std::io;
 use std::path::Path;

@@ -9,11 +9,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 use fem_scene::{Pipeline, Scene};
-use fem_study::report::{Report, report};
+use fem_study::report::{ErrorStudy, Report};
 use fem_study::runs::row::Row;
 use fem_study::studies::Settings;
+use fem_study::study::{self, Found, Study};
 
 /// Largest relative change of an error or an order.
 const CHANGE: f64 = 0.01;
@@ -59,7 +61,11 @@ fn found() -> &'static (Report, tempfile::TempDir) {
             factory: &factory,
             tell: &|_, _, _| (),
         };
-        (report(&settings, &scenes).unwrap(), out)
+        let study = ErrorStudy { settings, scenes: scenes.into(), names: &[] };
+        let found = study::rows(&study);
+        let Found { rows, machine, seconds } = &found;
+        study.finish(Found { rows: rows.clone(), machine: machine.clone(), seconds: *seconds }, out.path()).unwrap();
+        (Report::new(true, found), out)
     })
 }
 
@@ -215,7 +221,7 @@ fn errors_can_be_recomputed_from_the_state_files() {
     let rows = report.rows();
     let row = rows
         .iter()
-        .find(|row| row.config.scene == "beam" && row.config.integrator == "verlet" && row.is_done())
+        .find(|row| row.config.scene == "beam" && row.config.integrator == Integrator::Verlet && row.is_done())
         .unwrap();
     let (state, reference) = (read(&row.state), read(&row.reference_state));
     let (q, exact, weights) = (list(&state["q"]), list(&reference["q"]), list(&reference["weights"]));
@@ -227,7 +233,8 @@ fn errors_can_be_recomputed_from_the_state_files() {
 #[test]
 fn diverging_runs_are_failed_rows() {
     let rows = found().0.rows();
-    let explicit = rows.iter().filter(|row| row.config.scene == "arma" && row.config.integrator == "explicit_euler");
+    let explicit =
+        rows.iter().filter(|row| row.config.scene == "arma" && row.config.integrator == Integrator::ExplicitEuler);
     let statuses: Vec<_> = explicit.map(|row| &row.status).collect();
     assert!(!statuses.is_empty() && statuses.iter().all(|status| status.starts_with("failed: ")), "{statuses:?}");
 }

@@ -1,6 +1,7 @@
 //! A block under uniaxial tension or compression, known in closed form.
 
 use fem_mesh::{Pattern, box_mesh};
+use fem_model::Integrator;
 
 use super::setting::{Setting, displacements};
 use crate::scenes::{simulation, step};
@@ -11,7 +12,7 @@ use crate::scenes::{simulation, step};
 /// A load step that does not converge.
 pub fn computed(setting: &Setting, load: f64) -> Result<[f64; 2], String> {
     let mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Kuhn).map_err(|error| error.to_string())?;
-    let mut text = Setting { integrator: "static", ..setting.clone() }.text();
+    let mut text = Setting { integrator: Integrator::Static, ..setting.clone() }.text();
     for axis in ["x", "y", "z"] {
         text += &format!(
             "[[prescribed]]\non = {{ axis = \"{axis}\", side = \"min\", within = 1e-9 }}\ndisplacement = [0, 0, 0]\ncomponents = [\"{axis}\"]\n"

@@ -1,6 +1,7 @@
 //! The thesis' setting: material, damping, load and time step, and the simulations that have it.
 
 use fem_mesh::TetrahedralMesh;
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -48,15 +49,15 @@ pub struct Setting<'a> {
     /// `f64` or `f32`.
     pub precision: &'a str,
     /// Time integration method.
-    pub integrator: &'a str,
+    pub integrator: Integrator,
     /// Further tables of the scene, such as `[solver]`.
     pub tables: &'a str,
 }
 
 impl Default for Setting<'_> {
     fn default() -> Self {
-        let (law, precision, integrator) = ("linear", "f64", "implicit_euler");
-        Self { law, young: YOUNG, poisson: POISSON, precision, integrator, tables: "" }
+        let integrator = Integrator::ImplicitEuler;
+        Self { law: "linear", young: YOUNG, poisson: POISSON, precision: "f64", integrator, tables: "" }
     }
 }
 
@@ -71,17 +72,22 @@ impl Setting<'_> {
         let Self { law, young, poisson, precision, integrator, tables } = self;
         // One solve is exact for a linear body; the thesis' tolerance avoids a second one that would confirm it.
         let newton = match (*law, *integrator) {
-            ("linear", "implicit_euler") => "[newton]\ntolerance = 1e-5\n",
+            ("linear", Integrator::ImplicitEuler) => "[newton]\ntolerance = 1e-5\n",
             _ => "",
         };
         let time = match *integrator {
-            "static" => "steps = 1".to_owned(),
+            Integrator::Static => "steps = 1".to_owned(),
             _ => format!("dt = {DT}\n[damping]\nalpha = {ALPHA}\nbeta = {BETA}"),
         };
         let material = format!(
             "model = \"{law}\"\nyoung = {young:e}\npoisson = {poisson}\ndensity = {DENSITY}\n[mass]\nlumped = false\n{tables}{newton}"
         );
-        text(REPLACED, &material, &format!("integrator = \"{integrator}\"\nprecision = \"{precision}\"\n{time}"), "")
+        text(
+            REPLACED,
+            &material,
+            &format!("integrator = \"{}\"\nprecision = \"{precision}\"\n{time}", integrator.name()),
+            "",
+        )
     }
 
     /// The torus, squashed along x by a traction on its sides `left` and `right`. Nodes next to the planes
@@ -131,7 +137,7 @@ pub fn displacements(simulation: &dyn Simulation) -> Vec<Vector3<f64>> {
 /// # Errors
 /// A scene that is refused, or a load step that does not converge.
 pub fn equilibrium(setting: &Setting, mesh: &TetrahedralMesh) -> Result<Vec<Vector3<f64>>, String> {
-    let mut simulation = Setting { integrator: "static", ..setting.clone() }.torus(mesh)?;
+    let mut simulation = Setting { integrator: Integrator::Static, ..setting.clone() }.torus(mesh)?;
     step(&mut *simulation)?;
     Ok(displacements(&*simulation))
 }

@@ -7,6 +7,7 @@ use fem_engine::cantilever::{Cantilever, tip_displacement};
 use fem_mesh::generate::picture::{FromPicture, mesh_picture, read_picture};
 use fem_mesh::{Pattern, SurfaceMesh, box_mesh, read_tetrahedra};
 use fem_model::BodyMesh;
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 
 use super::setting::{DT, LAWS, POISSON, Setting, TRACTION, YOUNG, median_and_p95, one_thread};
@@ -118,7 +119,7 @@ fn pressed(law: &str, mesh: &BodyMesh, quick: bool) -> Result<Pressed, String> {
         simulation(&text, mesh.clone())
     };
     let setting = Setting::of_law(law);
-    let mut still = loaded(&Setting { integrator: "static", ..setting.clone() })?;
+    let mut still = loaded(&Setting { integrator: Integrator::Static, ..setting.clone() })?;
     step(&mut *still)?;
     let reaction: f64 = still.reactions().iter().map(|reaction| reaction.force[1]).sum();
     let load = pressed_area(mesh, high - HEAD * height) * TRACTION;
@@ -167,7 +168,7 @@ fn cantilevers(cells: &[usize]) -> Result<(Vec<Vec<String>>, Mark), String> {
         let text = format!(
             "{}[fixed]\non = {{ axis = \"x\", side = \"min\", within = 1e-9 }}\n\
              [[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\nforce_per_area = [0, -{BEND}, 0]\n",
-            Setting { integrator: "static", ..Setting::default() }.text()
+            Setting { integrator: Integrator::Static, ..Setting::default() }.text()
         );
         let mut simulation = simulation(&text, mesh)?;
         step(&mut *simulation)?;

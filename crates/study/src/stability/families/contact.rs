@@ -1,10 +1,11 @@
 //! Bodies that hit planes: fast, stiff, with much friction or none. No node is behind a plane after any step.
 
+use fem_model::Integrator;
 use fem_model::simulation::Diagnostics;
 
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::march::march_with;
-use crate::stability::scene_text::{ITERATED, LUMPED, SECOND_ORDER, SceneText, has_newton};
+use crate::stability::scene_text::{LUMPED, SceneText};
 use crate::study::Deadline;
 
 const FAMILY: &str = "contact";
@@ -23,9 +24,10 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
             for friction in if quick { vec![0.5] } else { vec![0.0, 0.5, 10.0] } {
                 // Fractions of the speed of waves in the body.
                 for speed in [1e-3, 0.2] {
-                    let methods = ["implicit_euler", "verlet", "semi_implicit_euler"];
+                    let methods = [Integrator::ImplicitEuler, Integrator::Verlet, Integrator::SemiImplicitEuler];
                     // Bathe's method has no contact.
-                    let second_order = SECOND_ORDER.into_iter().filter(|integrator| *integrator != "bathe");
+                    let second_order =
+                        Integrator::second_order_implicit().filter(|integrator| *integrator != Integrator::Bathe);
                     for integrator in methods.into_iter().chain(second_order) {
                         let text = SceneText {
                             mesh: (*mesh).to_owned(),
@@ -49,7 +51,7 @@ pub fn hit(text: SceneText, body: &str, friction: f64, part: f64) -> Case {
     };
     let planes = plane([0.0, -0.05, 0.0], [0.0, 1.0, 0.0]) + &plane([1.3, 0.0, 0.0], [-1.0, 1.0, 0.0]);
     let motion = format!("[[initial_velocity]]\nvelocity = [{}, {}, 0]\n", 0.5 * speed, -speed);
-    let is_explicit = !has_newton(text.integrator) && !ITERATED.contains(&text.integrator);
+    let is_explicit = !text.integrator.has_newton() && !text.integrator.is_iterated();
     let (dt, steps) = if is_explicit { (0.01 / wave, 400) } else { (0.1 / wave, 60) };
     let text = SceneText { dt, ..text }.with(&planes).with(&motion).with(if is_explicit { LUMPED } else { "" });
     let parameters = format!(
@@ -57,11 +59,8 @@ pub fn hit(text: SceneText, body: &str, friction: f64, part: f64) -> Case {
         text.young
     );
     Case {
-        expected: match text.integrator {
-            // Its line search would need the barrier, so the method refuses contact.
-            "projective_dynamics" => Outcome::Refused,
-            _ => Outcome::Survives,
-        },
+        // The line search of projective dynamics would need the barrier, so the method refuses contact.
+        expected: if text.integrator.facts().contact.is_some() { Outcome::Survives } else { Outcome::Refused },
         margin_is: "smallest distance from a plane in steps, m; must not be negative",
         ..text.clone().case(FAMILY, "flies into a corner", parameters, move |deadline| watched(&text, steps, deadline))
     }

@@ -1,11 +1,12 @@
 //! Bodies of one element, of unconnected parts, and with too many or too few constraints.
 
 use fem_mesh::TetrahedralMesh;
+use fem_model::Integrator;
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DYNAMIC, SceneText, gravity, moved_box};
+use crate::stability::scene_text::{CLAMPED, SceneText, dynamic, gravity, moved_box};
 
 const FAMILY: &str = "degenerate bodies";
 
@@ -19,7 +20,7 @@ const DT_OF_GROWTH: f64 = 1e-4;
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let steps = if quick { 20 } else { 200 };
     for body in &BODIES {
-        for integrator in DYNAMIC.into_iter().chain(["static"]) {
+        for integrator in dynamic().chain([Integrator::Static]) {
             cases.push(case(body, integrator, steps));
         }
     }
@@ -88,11 +89,11 @@ fn together(mut one: TetrahedralMesh, other: TetrahedralMesh) -> TetrahedralMesh
     one
 }
 
-fn case(body: &Body, integrator: &'static str, steps: usize) -> Case {
-    let dt = if integrator == "explicit_euler" { DT_OF_GROWTH } else { DT };
+fn case(body: &Body, integrator: Integrator, steps: usize) -> Case {
+    let dt = if integrator == Integrator::ExplicitEuler { DT_OF_GROWTH } else { DT };
     let text = SceneText { dt, ..SceneText::small(integrator, "neo_hookean") };
     let text = text.with(body.tables).with(&gravity([0.0, 0.0, -9.81]));
-    let is_static = integrator == "static";
+    let is_static = integrator == Integrator::Static;
     let (steps, mesh) = (if is_static { 1 } else { steps }, body.mesh);
     let parameters = format!("E = 1e5 Pa, dt = {dt:e} s, under its weight, {steps} steps");
     Case {

@@ -1,12 +1,13 @@
 //! Energy from nothing: every method with every damping, driven in every way. The judge is the energy ledger; copies of a scene that are turned,
 //! scaled, or solved by another solver are further judges.
 
+use fem_model::Integrator;
 use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::march::march;
-use crate::stability::scene_text::{SECOND_ORDER, SceneText, has_newton};
+use crate::stability::scene_text::SceneText;
 use crate::study::Deadline;
 
 const FAMILY: &str = "energy from nothing";
@@ -54,7 +55,7 @@ const COPIES: [(&str, Copy); 3] = [
 /// A scene of the family.
 #[derive(Clone, Copy)]
 struct Driven {
-    integrator: &'static str,
+    integrator: Integrator,
     model: &'static str,
     drive: usize,
     damping: [f64; 2],
@@ -68,31 +69,35 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     cases.extend(scenes.iter().step_by(every).map(|scene| balanced(*scene)));
     let compared = scenes.iter().filter(|scene| is_compared(scene));
     let copies = compared.flat_map(|scene| COPIES.iter().map(move |copy| (*scene, *copy)));
-    let usable = copies.filter(|(scene, (_, copy))| copy.solver.is_empty() || has_newton(scene.integrator));
+    let usable = copies.filter(|(scene, (_, copy))| copy.solver.is_empty() || scene.integrator.has_newton());
     cases.extend(usable.step_by(every).map(|(scene, (name, copy))| same(scene, name, copy)));
 }
 
 /// All scenes.
 fn scenes() -> Vec<Driven> {
     let mut scenes = Vec::new();
-    let explicit = ["semi_implicit_euler", "rk2", "rk4", "verlet"].map(|name| (name, &DAMPINGS[..3], &[5e-4][..]));
-    let newton = ["implicit_euler"].into_iter().chain(SECOND_ORDER).filter(|integrator| *integrator != "bathe");
+    let explicit = [Integrator::SemiImplicitEuler, Integrator::Rk2, Integrator::Rk4, Integrator::Verlet]
+        .map(|name| (name, &DAMPINGS[..3], &[5e-4][..]));
+    let newton = [Integrator::ImplicitEuler]
+        .into_iter()
+        .chain(Integrator::second_order_implicit())
+        .filter(|integrator| *integrator != Integrator::Bathe);
     let newton = newton.map(|name| (name, &DAMPINGS[..], &[5e-3, 0.05][..]));
     let other = [
-        ("linearly_implicit_euler", &DAMPINGS[..], &[2e-3][..]),
-        ("xpbd", &DAMPINGS[..2], &[5e-3][..]),
-        ("vbd", &DAMPINGS[..2], &[5e-3][..]),
-        ("projective_dynamics", &DAMPINGS[..2], &[5e-3][..]),
-        ("bathe", &DAMPINGS[..], &[5e-3, 0.05][..]),
+        (Integrator::LinearlyImplicitEuler, &DAMPINGS[..], &[2e-3][..]),
+        (Integrator::Xpbd, &DAMPINGS[..2], &[5e-3][..]),
+        (Integrator::Vbd, &DAMPINGS[..2], &[5e-3][..]),
+        (Integrator::ProjectiveDynamics, &DAMPINGS[..2], &[5e-3][..]),
+        (Integrator::Bathe, &DAMPINGS[..], &[5e-3, 0.05][..]),
     ];
     for (integrator, dampings, steps) in explicit.into_iter().chain(newton).chain(other) {
-        let has_planes = !["linearly_implicit_euler", "projective_dynamics", "bathe"].contains(&integrator);
+        let has_planes = integrator.facts().contact.is_some();
         let drives = if has_planes { DRIVES.len() } else { WITHOUT_PLANES };
         for (&dt, &damping) in steps.iter().flat_map(|dt| dampings.iter().map(move |damping| (dt, damping))) {
             for drive in 0..drives {
                 let model = match integrator {
-                    "xpbd" | "vbd" => "stable_neo_hookean",
-                    "projective_dynamics" => "corotated",
+                    Integrator::Xpbd | Integrator::Vbd => "stable_neo_hookean",
+                    Integrator::ProjectiveDynamics => "corotated",
                     _ => LAWS[scenes.len() % LAWS.len()],
                 };
                 scenes.push(Driven { integrator, model, drive, damping, dt });
@@ -104,15 +109,11 @@ fn scenes() -> Vec<Driven> {
 
 /// Returns true for a scene that is compared with its copies.
 fn is_compared(scene: &Driven) -> bool {
-    let is_exact = has_newton(scene.integrator) || scene.integrator == "verlet";
+    let is_exact = scene.integrator.has_newton() || scene.integrator == Integrator::Verlet;
     is_exact && scene.dt < 0.01 && (scene.damping == DAMPINGS[0] || scene.damping == DAMPINGS[2])
 }
 
 impl Driven {
-    fn is_explicit(&self) -> bool {
-        ["semi_implicit_euler", "rk2", "rk4", "verlet"].contains(&self.integrator)
-    }
-
     fn steps(&self) -> usize {
         (TIME / self.dt).round() as usize
     }
@@ -163,7 +164,7 @@ impl Driven {
             _ => gravity + &plane(0.0, 1.0, ""),
         };
         // Its default follows lengths per second.
-        let has_barrier = has_newton(self.integrator) && self.drive >= WITHOUT_PLANES;
+        let has_barrier = self.integrator.has_newton() && self.drive >= WITHOUT_PLANES;
         let friction = if has_barrier { "[contact]\ntransition_speed = 1e-3\n" } else { "" };
         let [alpha, beta] = [self.damping[0] / scale, self.damping[1] * scale];
         let damping = format!("[damping]\nalpha = {alpha:?}\nbeta = {beta:?}\n");
@@ -181,9 +182,13 @@ impl Driven {
         .with(friction)
         .with(if self.damping == DAMPINGS[0] { "" } else { &damping })
         .with(if self.model == "hencky" { plastic } else { "" })
-        .with(if self.is_explicit() { "[mass]\nlumped = true\n" } else { "" })
-        .with(if has_newton(self.integrator) { "[newton]\ntolerance = 1e-11\n" } else { "" })
-        .with(if ["xpbd", "vbd"].contains(&self.integrator) { "[iterations]\ncount = 100\n" } else { "" })
+        .with(if self.integrator.is_explicit() { "[mass]\nlumped = true\n" } else { "" })
+        .with(if self.integrator.has_newton() { "[newton]\ntolerance = 1e-11\n" } else { "" })
+        .with(if [Integrator::Xpbd, Integrator::Vbd].contains(&self.integrator) {
+            "[iterations]\ncount = 100\n"
+        } else {
+            ""
+        })
         .with(solver)
     }
 }

@@ -1,5 +1,6 @@
 //! Motions far beyond the critical time step: they end at the step in which it shows, whatever the law.
 
+use fem_model::Integrator;
 use fem_model::simulation::{Cause, Simulation};
 
 use crate::stability::case::{Case, Finding, Outcome};
@@ -14,7 +15,9 @@ const STEPS: usize = 20;
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>) {
-    for integrator in ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet"] {
+    for integrator in
+        [Integrator::ExplicitEuler, Integrator::SemiImplicitEuler, Integrator::Rk2, Integrator::Rk4, Integrator::Verlet]
+    {
         for model in LAWS {
             let text = clamped(integrator, model, 1e5, 0.3).with(&gravity([0.0, 0.0, -10.0]));
             let parameters = "E = 1e5 Pa, dt = 0.3 s".to_owned();

@@ -1,5 +1,6 @@
 //! Flat bodies: stiffness against time step, inverted triangles, pictures meshed coarsely and finely, momentum.
 
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
@@ -7,7 +8,7 @@ use super::recovery::MARGIN_IS;
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::initial_state::{Random, place_moving};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, DYNAMIC, SceneText, gravity};
+use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText, dynamic, gravity};
 
 const FAMILY: &str = "flat bodies";
 
@@ -29,13 +30,13 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     for model in ["corotated", "stable_neo_hookean"] {
         cases.push(meshed_anew(model, if quick { 10 } else { 50 }));
     }
-    for integrator in DYNAMIC {
+    for integrator in dynamic() {
         cases.push(rigid(integrator, if quick { 100 } else { 1000 }));
     }
 }
 
 /// A rectangle of 2 × 1 m in squares of 0.5 m.
-fn rectangle(integrator: &'static str, model: &'static str) -> SceneText {
+fn rectangle(integrator: Integrator, model: &'static str) -> SceneText {
     let mesh = "rectangle = { size = [2, 1], pattern = \"kuhn\", cells_per_unit = 2 }".to_owned();
     SceneText { mesh, ..SceneText::small(integrator, model) }
 }
@@ -43,7 +44,7 @@ fn rectangle(integrator: &'static str, model: &'static str) -> SceneText {
 /// A clamped rectangle under a weight that bends it as far at every stiffness.
 fn sagging(model: &'static str, young: f64, dt: f64, steps: usize) -> Case {
     let weight = gravity([0.0, -0.02 * young / 1e3, 0.0]);
-    let text = SceneText { young, dt, ..rectangle("implicit_euler", model) }.with(CLAMPED).with(&weight);
+    let text = SceneText { young, dt, ..rectangle(Integrator::ImplicitEuler, model) }.with(CLAMPED).with(&weight);
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, {steps} steps");
     text.clone().case(FAMILY, "sags under its weight", parameters, move |deadline| {
         Ok(march(&mut text.build()?, steps, deadline).survival())
@@ -55,7 +56,7 @@ const MESHES: [(usize, usize); 5] = [(2, 1), (8, 1), (1, 1), (4, 2), (2, 2)];
 
 /// A clamped rectangle that sags, meshed coarsely and finely in turn, each time from rest, as the window does it.
 fn meshed_anew(model: &'static str, steps: usize) -> Case {
-    let text = rectangle("implicit_euler", model).with(CLAMPED).with(&gravity([0.0, -2.0, 0.0]));
+    let text = rectangle(Integrator::ImplicitEuler, model).with(CLAMPED).with(&gravity([0.0, -2.0, 0.0]));
     let parameters = format!("{MESHES:?} cells per metre and order, {steps} steps each");
     text.clone().case(FAMILY, "meshed anew", parameters, move |deadline| {
         let mut least: Option<Finding> = None;
@@ -78,7 +79,7 @@ const STEPS: usize = 600;
 
 /// A clamped rectangle whose nodes start at random places of the plane.
 fn scrambled(model: &'static str, expected: Outcome, seed: u64) -> Case {
-    let text = SceneText { dt: 0.05, ..rectangle("implicit_euler", model) }.with(CLAMPED).with(DAMPED);
+    let text = SceneText { dt: 0.05, ..rectangle(Integrator::ImplicitEuler, model) }.with(CLAMPED).with(DAMPED);
     let parameters = format!("E = 1e5 Pa, dt = {} s, up to {STEPS} steps", text.dt);
     let case = text.clone().case(FAMILY, "random positions in the plane", parameters, move |deadline| {
         let (mut simulation, mut random) = (text.build()?, Random::new(seed));
@@ -95,7 +96,7 @@ fn scrambled(model: &'static str, expected: Outcome, seed: u64) -> Case {
 }
 
 /// A free rectangle in rigid motion without loads, which conserves its momentum and stays in its plane.
-fn rigid(integrator: &'static str, steps: usize) -> Case {
+fn rigid(integrator: Integrator, steps: usize) -> Case {
     let text = SceneText { dt: 1e-3, ..rectangle(integrator, "corotated") };
     let parameters = format!("dt = 1e-3 s, {steps} steps");
     let case = text.clone().case(FAMILY, "translating and rotating", parameters, move |deadline| {

@@ -1,15 +1,13 @@
 //! Nearly incompressible materials: survival, and volumetric locking.
 
-use std::path::Path;
-
 use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
-use fem_scene::body;
 
 use crate::space::locking::RATIOS;
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, LAWS, SceneText, gravity, refused};
+use crate::stability::scene_text::{CLAMPED, LAWS, SceneText, gravity};
 
 const FAMILY: &str = "Poisson's ratio";
 
@@ -24,7 +22,9 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let laws: &[&str] = if quick { &LAWS[3..] } else { &LAWS };
     for poisson in RATIOS {
         for &model in laws {
-            for (integrator, steps) in [("implicit_euler", if quick { 10 } else { 50 }), ("static", 1)] {
+            for (integrator, steps) in
+                [(Integrator::ImplicitEuler, if quick { 10 } else { 50 }), (Integrator::Static, 1)]
+            {
                 let text = SceneText { poisson, young: 1e6, ..SceneText::finer(integrator, model) };
                 cases.push(sagging(text.with(CLAMPED).with(&gravity([0.0, 0.0, -9.81])), steps));
             }
@@ -48,15 +48,14 @@ fn cantilever(poisson: f64, cells: usize) -> Case {
     let locks = poisson > if cells > 2 { 0.48 } else { 0.44 };
     let mesh = format!("box = {{ size = [8, 1, 1], pattern = \"kuhn\", cells_per_unit = {cells} }}");
     let end = "[[traction]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\nforce_per_area = [0, 0, -50]\n";
-    let text = SceneText { mesh, poisson, young: 1e6, dt: 1.0, ..SceneText::small("static", "linear") };
+    let text = SceneText { mesh, poisson, young: 1e6, dt: 1.0, ..SceneText::small(Integrator::Static, "linear") };
     let text = text.with(CLAMPED).with(end);
     let parameters = format!("nu = {poisson}, 8 x 1 x 1 m, {cells} cells per metre");
     Case {
         expected: if locks { Outcome::Locks } else { Outcome::Survives },
         margin_is: "tip deflection over that of theory; 1 is exact, below 0.5 counts as locked",
         ..text.clone().case(FAMILY, CANTILEVER, parameters, move |deadline| {
-            let scene = text.scene().map_err(refused)?;
-            let body = body(&scene, Path::new("")).map_err(refused)?;
+            let (scene, body) = text.scene_and_body()?;
             let mut simulation = text.build()?;
             if let Some(trouble) = march(&mut simulation, 1, deadline).trouble() {
                 return Ok(trouble);

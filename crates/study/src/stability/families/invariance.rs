@@ -2,27 +2,28 @@
 
 use fem_engine::simulator::Simulator;
 use fem_mesh::TetrahedralMesh;
+use fem_model::Integrator;
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Finding};
 use crate::stability::initial_state::{Random, place_moving};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DYNAMIC, LUMPED, SceneText, gravity, has_newton, moved_box};
+use crate::stability::scene_text::{CLAMPED, LUMPED, SceneText, dynamic, gravity, moved_box};
 use crate::study::Deadline;
 
 const FAMILY: &str = "invariance";
 
 /// Integrators with time steps below all limits, s, and numbers of steps.
-const METHODS: [(&str, f64, usize); 9] = [
-    ("implicit_euler", 0.02, 20),
-    ("implicit_midpoint", 0.02, 20),
-    ("newmark", 0.02, 20),
-    ("generalized_alpha", 0.02, 20),
-    ("bdf2", 0.02, 20),
-    ("linearly_implicit_euler", 0.005, 40),
-    ("verlet", 0.002, 100),
-    ("rk4", 0.002, 100),
-    ("static", 1.0, 1),
+const METHODS: [(Integrator, f64, usize); 9] = [
+    (Integrator::ImplicitEuler, 0.02, 20),
+    (Integrator::ImplicitMidpoint, 0.02, 20),
+    (Integrator::Newmark, 0.02, 20),
+    (Integrator::GeneralizedAlpha, 0.02, 20),
+    (Integrator::Bdf2, 0.02, 20),
+    (Integrator::LinearlyImplicitEuler, 0.005, 40),
+    (Integrator::Verlet, 0.002, 100),
+    (Integrator::Rk4, 0.002, 100),
+    (Integrator::Static, 1.0, 1),
 ];
 
 /// Largest difference of two displacements, relative to the body's length.
@@ -36,7 +37,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     for &(integrator, dt, steps) in methods {
         for model in ["neo_hookean", "stable_neo_hookean"] {
             let text = SceneText { dt, ..SceneText::finer(integrator, model) }.with(CLAMPED);
-            let text = text.with(if has_newton(integrator) { "[newton]\ntolerance = 1e-12\n" } else { "" });
+            let text = text.with(if integrator.has_newton() { "[newton]\ntolerance = 1e-12\n" } else { "" });
             cases.push(shifted(text.clone(), steps));
             for scale in [1e-6, 1e6] {
                 cases.push(scaled(text.clone(), scale, steps));
@@ -46,7 +47,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
             }
         }
     }
-    for integrator in DYNAMIC {
+    for integrator in dynamic() {
         for mass in ["", LUMPED] {
             cases.push(rigid(integrator, mass, if quick { 100 } else { 1000 }));
         }
@@ -140,7 +141,7 @@ fn shuffled(mesh: &TetrahedralMesh, seed: u64) -> (TetrahedralMesh, Vec<usize>) 
 }
 
 /// A free body in rigid motion without loads, which conserves its momentum.
-pub fn rigid(integrator: &'static str, mass: &'static str, steps: usize) -> Case {
+pub fn rigid(integrator: Integrator, mass: &'static str, steps: usize) -> Case {
     let text = SceneText { dt: 1e-3, ..SceneText::small(integrator, "neo_hookean") }.with(mass);
     let name = if mass.is_empty() { "consistent" } else { "lumped" };
     let parameters = format!("{name} mass, dt = 1e-3 s, {steps} steps");

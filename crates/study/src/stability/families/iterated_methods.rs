@@ -1,6 +1,7 @@
 //! Methods of a fixed number of iterations: position-based dynamics, its extended form, vertex block descent, projective dynamics. They step
 //! with whatever error is left, so that every time step is stable, but elements of a law without a barrier may end inverted.
 
+use fem_model::Integrator;
 use fem_scene::parse;
 use nalgebra::Vector3;
 
@@ -14,7 +15,7 @@ use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::initial_state::{Random, place};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, ITERATED, LUMPED, SceneText, gravity, prescribed_end};
+use crate::stability::scene_text::{CLAMPED, DAMPED, LUMPED, SceneText, gravity, iterated, prescribed_end};
 
 const FAMILY: &str = "iterated methods";
 
@@ -28,7 +29,7 @@ const MARGIN_IS: &str =
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let omega = unit_omega("linear");
-    for integrator in ITERATED {
+    for integrator in iterated() {
         for count in if quick { &[20][..] } else { &[1, 20] } {
             for young in YOUNG {
                 for dt in DT {
@@ -63,7 +64,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
             }
         }
         // A step of few sweeps of vertex block descent does not keep the momentum. Round-off of all sweeps adds up.
-        if integrator != "vbd" {
+        if integrator != Integrator::Vbd {
             cases.push(rigid(integrator, LUMPED, 100));
         }
         add_refusals(cases, integrator);
@@ -72,9 +73,9 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 
 /// The end of a large motion. PBD has no energy, and does not see the barrier of a law that has one: the step that passes it is refused. The
 /// sweeps of XPBD diverge where elements are stiff beside their masses, E dt² of the order of ρ h² and more, and strains are large.
-fn expected(integrator: &str, law: &str) -> Outcome {
+fn expected(integrator: Integrator, law: &str) -> Outcome {
     match (integrator, law) {
-        ("pbd", "neo_hookean") | ("xpbd", _) => Outcome::Explodes,
+        (Integrator::Pbd, "neo_hookean") | (Integrator::Xpbd, _) => Outcome::Explodes,
         _ => Outcome::Survives,
     }
 }
@@ -84,7 +85,7 @@ fn iterations(count: usize) -> String {
 }
 
 /// The highest mode of a clamped body, which implicit Euler damps however stiff the body and long the step.
-fn vibrating(integrator: &'static str, young: f64, (dt, count): (f64, usize), unit_omega: f64) -> Case {
+fn vibrating(integrator: Integrator, young: f64, (dt, count): (f64, usize), unit_omega: f64) -> Case {
     let forecast = forecast(integrator, unit_omega * young.sqrt() * dt, 60);
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, {count} iterations, {} steps", forecast.steps);
     let text = clamped(integrator, "stable_neo_hookean", young, dt).with(&iterations(count));
@@ -93,7 +94,7 @@ fn vibrating(integrator: &'static str, young: f64, (dt, count): (f64, usize), un
 }
 
 /// A clamped body under a weight of a fifth of E times its cross-section.
-fn weighed(integrator: &'static str, young: f64, dt: f64) -> Case {
+fn weighed(integrator: Integrator, young: f64, dt: f64) -> Case {
     let text = clamped(integrator, "stable_neo_hookean", young, dt).with(&gravity([0.0, 0.0, -0.1 * young / 1e3]));
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, 50 steps");
     let name = "clamped body, sagging under a fifth of E times its cross-section";
@@ -101,8 +102,8 @@ fn weighed(integrator: &'static str, young: f64, dt: f64) -> Case {
     let stiffness = young * dt * dt / text.density;
     Case {
         expected: match integrator {
-            "xpbd" if stiffness > 5.0 => Outcome::Explodes,
-            "vbd" if stiffness > 1e4 => Outcome::Inverts,
+            Integrator::Xpbd if stiffness > 5.0 => Outcome::Explodes,
+            Integrator::Vbd if stiffness > 1e4 => Outcome::Inverts,
             _ => Outcome::Survives,
         },
         ..text
@@ -118,7 +119,7 @@ const ENDS: [(&str, &str); 3] = [
     ("turned once", "rotation = { axis = \"x\", center = [0, 0.5, 0.5], turns = 1 }"),
 ];
 
-fn moved(name: &str, motion: &str, law: &'static str, integrator: &'static str) -> Case {
+fn moved(name: &str, motion: &str, law: &'static str, integrator: Integrator) -> Case {
     let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, law) };
     let text = text.with(CLAMPED).with(&prescribed_end(motion, 2.5));
     let case = text.clone().case(FAMILY, name, "E = 1e5 Pa, dt = 0.05 s, 50 steps".to_owned(), {
@@ -146,7 +147,7 @@ const STEPS: usize = 600;
 /// Seeds with which the sweeps of XPBD diverge from a plane.
 const FLAT_AND_DIVERGING: [u64; 4] = [1, 4, 7, 9];
 
-fn tangled(name: &str, tangle: Tangle, integrator: &'static str, seed: u64) -> Case {
+fn tangled(name: &str, tangle: Tangle, integrator: Integrator, seed: u64) -> Case {
     let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, "stable_neo_hookean") }.with(CLAMPED).with(DAMPED);
     let parameters = format!("E = 1e5 Pa, dt = {} s, up to {STEPS} steps", text.dt);
     let case = text.clone().case(FAMILY, name, parameters, move |deadline| {
@@ -154,7 +155,7 @@ fn tangled(name: &str, tangle: Tangle, integrator: &'static str, seed: u64) -> C
         place(&mut simulation, |X| tangle(&mut random, X));
         Ok(back_at_rest(&mut simulation, STEPS, true, deadline))
     });
-    let diverges = integrator == "xpbd"
+    let diverges = integrator == Integrator::Xpbd
         && match name {
             "random positions" | "collapsed to a point" => true,
             "flattened to a plane" => FLAT_AND_DIVERGING.contains(&seed),
@@ -164,7 +165,7 @@ fn tangled(name: &str, tangle: Tangle, integrator: &'static str, seed: u64) -> C
     Case { expected, margin_is: RECOVERED, seed: Some(seed), ..case }
 }
 
-fn degenerate(body: &Body, integrator: &'static str, steps: usize) -> Case {
+fn degenerate(body: &Body, integrator: Integrator, steps: usize) -> Case {
     let text = SceneText { dt: 1e-3, ..SceneText::small(integrator, "stable_neo_hookean") };
     let text = text.with(body.tables).with(&gravity([0.0, 0.0, -9.81]));
     let (mesh, parameters) = (body.mesh, format!("E = 1e5 Pa, dt = 1e-3 s, under its weight, {steps} steps"));
@@ -186,7 +187,7 @@ const UNKNOWN: [(&str, &str, &str, &str); 4] = [
     ("Newton's tolerance", "[fixed]", "[newton]\ntolerance = 1e-6\n[fixed]", "newton"),
 ];
 
-fn add_refusals(cases: &mut Vec<Case>, integrator: &'static str) {
+fn add_refusals(cases: &mut Vec<Case>, integrator: Integrator) {
     for (name, from, to, names) in UNKNOWN {
         let text = SceneText::small(integrator, "neo_hookean").with(CLAMPED);
         let case = text.clone().case(FAMILY, name, format!("`{}`", to.replace('\n', "; ")), move |_| {

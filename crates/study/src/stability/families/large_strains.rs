@@ -1,13 +1,14 @@
 //! Strains far beyond those of rubber: torsion, tension and compression by prescribed motion, and the release from them.
 
 use fem_engine::simulator::Simulator;
+use fem_model::Integrator;
 use nalgebra::Vector3;
 
 use super::recovery::{MARGIN_IS, back_at_rest};
 use crate::stability::case::{Case, Finding, Outcome, SMALLEST_J};
 use crate::stability::initial_state::place;
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, SECOND_ORDER, SceneText, prescribed_end};
+use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText, prescribed_end};
 
 const FAMILY: &str = "large strains";
 
@@ -61,8 +62,11 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     for motion in if quick { &MOTIONS[1..] } else { &MOTIONS } {
         for model in ["neo_hookean", "stable_neo_hookean"] {
             // Waves in the twisted rod take generalized-α beyond any deadline: it damps them by a fifth in each step.
-            let is_usable = |integrator: &&str| !(is_twist(motion) && *integrator == "generalized_alpha");
-            for integrator in ["implicit_euler", "static"].into_iter().chain(SECOND_ORDER.into_iter().filter(is_usable))
+            let is_usable =
+                |integrator: &Integrator| !(is_twist(motion) && *integrator == Integrator::GeneralizedAlpha);
+            for integrator in [Integrator::ImplicitEuler, Integrator::Static]
+                .into_iter()
+                .chain(Integrator::second_order_implicit().filter(is_usable))
             {
                 cases.push(prescribed(motion, model, integrator));
             }
@@ -80,18 +84,18 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 }
 
 /// The scene of a motion, which takes `steps` steps of `dt`.
-fn scene(motion: &EndMotion, model: &'static str, integrator: &'static str) -> SceneText {
+fn scene(motion: &EndMotion, model: &'static str, integrator: Integrator) -> SceneText {
     let load_steps = format!("[static]\nload_steps = {}\n", motion.steps);
-    let tables = if integrator == "static" { &load_steps } else { "" };
+    let tables = if integrator == Integrator::Static { &load_steps } else { "" };
     let mesh = motion.mesh.to_owned();
     let text = SceneText { poisson: 0.4, mesh, dt: motion.dt, ..SceneText::finer(integrator, model) };
     text.with(CLAMPED).with(tables).with(&prescribed_end(motion.motion, motion.dt * motion.steps as f64))
 }
 
 /// The motion, and as many steps at its end.
-fn prescribed(motion: &EndMotion, model: &'static str, integrator: &'static str) -> Case {
+fn prescribed(motion: &EndMotion, model: &'static str, integrator: Integrator) -> Case {
     let text = scene(motion, model, integrator);
-    let steps = if integrator == "static" { motion.steps } else { 2 * motion.steps };
+    let steps = if integrator == Integrator::Static { motion.steps } else { 2 * motion.steps };
     let parameters = format!("nu = 0.4, E = 1e5 Pa, dt = {} s, {steps} steps", motion.dt);
     let inverts = model == "stable_neo_hookean" && motion.inverts;
     Case {
@@ -100,7 +104,7 @@ fn prescribed(motion: &EndMotion, model: &'static str, integrator: &'static str)
             false if keeps_shocks(motion, model, integrator) => Outcome::Explodes,
             false => Outcome::Survives,
         },
-        margin_is: if SECOND_ORDER.contains(&integrator) { IN_WAVES } else { SMALLEST_J },
+        margin_is: if integrator.estimates_error() { IN_WAVES } else { SMALLEST_J },
         ..text.clone().case(FAMILY, motion.name, parameters, move |deadline| {
             Ok(march(&mut text.build()?, steps, deadline).survival())
         })
@@ -109,12 +113,12 @@ fn prescribed(motion: &EndMotion, model: &'static str, integrator: &'static str)
 
 /// Returns true if a method keeps the waves of the motion that its steps do not resolve, until they invert elements of a material with
 /// a barrier, or their energy grows: the end of the run names the element or the energy.
-fn keeps_shocks(motion: &EndMotion, model: &str, integrator: &str) -> bool {
+fn keeps_shocks(motion: &EndMotion, model: &str, integrator: Integrator) -> bool {
     match integrator {
-        "implicit_midpoint" | "newmark" => is_twist(motion) || model == "neo_hookean",
-        "generalized_alpha" => motion.inverts && model == "neo_hookean",
+        Integrator::ImplicitMidpoint | Integrator::Newmark => is_twist(motion) || model == "neo_hookean",
+        Integrator::GeneralizedAlpha => motion.inverts && model == "neo_hookean",
         // It gains energy where the rod buckles within a step.
-        "bdf2" => is_twist(motion) && model == "stable_neo_hookean",
+        Integrator::Bdf2 => is_twist(motion) && model == "stable_neo_hookean",
         _ => false,
     }
 }
@@ -125,9 +129,9 @@ fn is_twist(motion: &EndMotion) -> bool {
 
 /// The motion, and then a free end.
 fn prescribed_and_released(motion: &EndMotion, model: &'static str) -> Case {
-    let text = scene(motion, model, "implicit_euler");
+    let text = scene(motion, model, Integrator::ImplicitEuler);
     let mesh = motion.mesh.to_owned();
-    let free = SceneText { poisson: 0.4, mesh, dt: 0.1, ..SceneText::finer("implicit_euler", model) };
+    let free = SceneText { poisson: 0.4, mesh, dt: 0.1, ..SceneText::finer(Integrator::ImplicitEuler, model) };
     // Buckling: implicit Euler may gain energy in a step across a maximum of the potential, which no convex potential has.
     let free = free.with(CLAMPED).with(DAMPED).with("[energy]\naccept_gain = true\n");
     let (steps, rest) = (motion.steps, 1000);
@@ -156,7 +160,7 @@ const RELEASED: [(&str, [f64; 2]); 3] = [
 
 /// A material without an energy barrier may pass through J = 0, and must recover.
 fn released(name: &str, factors: [f64; 2], model: &'static str, dt: f64) -> Case {
-    let text = SceneText { dt, ..SceneText::finer("implicit_euler", model) };
+    let text = SceneText { dt, ..SceneText::finer(Integrator::ImplicitEuler, model) };
     let has_barrier = model == "neo_hookean";
     let (text, steps) = if has_barrier { (text, 100) } else { (text.with(DAMPED), 1000) };
     let parameters = format!("free, E = 1e5 Pa, nu = 0.3, dt = {dt:e} s, {steps} steps");
@@ -173,7 +177,7 @@ fn released(name: &str, factors: [f64; 2], model: &'static str, dt: f64) -> Case
 
 /// A linearly implicit step moves a wave as far as its initial speed says. If that is more than an element, elements invert.
 fn released_linearly(name: &str, factors: [f64; 2], dt: f64) -> Case {
-    let text = SceneText { dt, ..SceneText::finer("linearly_implicit_euler", "neo_hookean") };
+    let text = SceneText { dt, ..SceneText::finer(Integrator::LinearlyImplicitEuler, "neo_hookean") };
     let courant = dt * (text.young / text.density).sqrt() / 0.5;
     let parameters = format!("free, E = 1e5 Pa, nu = 0.3, dt = {dt:e} s, 100 steps");
     Case {

@@ -1,5 +1,6 @@
 //! Ten thousand steps and more, and time steps that change within a run.
 
+use fem_model::Integrator;
 use fem_model::simulation::{Interactive, Simulation};
 use nalgebra::Vector3;
 
@@ -16,16 +17,16 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let steps = if quick { 2000 } else { 20_000 };
     for model in ["neo_hookean", "stable_neo_hookean"] {
         let text = |integrator, dt| SceneText { dt, ..SceneText::small(integrator, model) }.with(CLAMPED);
-        for integrator in ["verlet", "semi_implicit_euler", "rk4"] {
+        for integrator in [Integrator::Verlet, Integrator::SemiImplicitEuler, Integrator::Rk4] {
             cases.push(lasting(text(integrator, 1e-3), steps, false));
         }
         for dt in [0.01, 1.0] {
-            cases.push(lasting(text("implicit_euler", dt), steps, true));
+            cases.push(lasting(text(Integrator::ImplicitEuler, dt), steps, true));
         }
-        for integrator in ["implicit_midpoint", "newmark"] {
+        for integrator in [Integrator::ImplicitMidpoint, Integrator::Newmark] {
             cases.push(lasting(text(integrator, 0.01), steps, false));
         }
-        cases.push(lasting(text("bdf2", 0.01), steps, true));
+        cases.push(lasting(text(Integrator::Bdf2, 0.01), steps, true));
         for (integrator, dts) in CHANGING {
             cases.push(changing(text(integrator, dts[0]), dts));
         }
@@ -69,13 +70,13 @@ fn watched(text: &SceneText, steps: usize, decays: bool, deadline: Deadline) -> 
 }
 
 /// Time steps in turn, s; all below the stability limit.
-const CHANGING: [(&str, [f64; 3]); 6] = [
-    ("implicit_euler", [0.01, 1e-4, 0.1]),
-    ("linearly_implicit_euler", [0.01, 1e-4, 0.002]),
-    ("newmark", [0.01, 1e-4, 0.02]),
-    ("bdf2", [0.01, 1e-4, 0.1]),
-    ("verlet", [1e-3, 1e-5, 3e-3]),
-    ("rk4", [1e-3, 1e-5, 3e-3]),
+const CHANGING: [(Integrator, [f64; 3]); 6] = [
+    (Integrator::ImplicitEuler, [0.01, 1e-4, 0.1]),
+    (Integrator::LinearlyImplicitEuler, [0.01, 1e-4, 0.002]),
+    (Integrator::Newmark, [0.01, 1e-4, 0.02]),
+    (Integrator::Bdf2, [0.01, 1e-4, 0.1]),
+    (Integrator::Verlet, [1e-3, 1e-5, 3e-3]),
+    (Integrator::Rk4, [1e-3, 1e-5, 3e-3]),
 ];
 
 fn changing(text: SceneText, dts: [f64; 3]) -> Case {

@@ -1,12 +1,13 @@
 //! Maps: the outcome of a vibrating body for pairs of stiffness and time step, one map for each integrator.
 
+use fem_model::Integrator;
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
-use crate::stability::scene_text::DYNAMIC;
+use crate::stability::scene_text::dynamic;
 use crate::stability::theory;
 use crate::study::Deadline;
 
@@ -23,7 +24,7 @@ pub const TIME_STEPS: usize = 11;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Map {
     /// Name of the integrator.
-    pub integrator: String,
+    pub integrator: Integrator,
     /// E dt² at the stability limit ω_max dt, Pa s². For integrators without a stable step: where the highest mode grows enough
     /// within the run. `None` for unconditionally stable integrators.
     pub limit: Option<f64>,
@@ -56,7 +57,7 @@ pub struct Cell {
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let omega = unit_omega("linear");
     let count = EXPONENTS_OF_YOUNG.count() * TIME_STEPS;
-    for integrator in DYNAMIC {
+    for integrator in dynamic() {
         let parameters = format!("{count} pairs, E = 1e2 to 1e12 Pa, dt = 1e-5 to 1 s");
         let text = clamped(integrator, "neo_hookean", 1.0, 1.0);
         let work = move |deadline| {
@@ -71,7 +72,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     }
 }
 
-fn map(integrator: &'static str, omega: f64, most: usize, deadline: Deadline) -> Map {
+fn map(integrator: Integrator, omega: f64, most: usize, deadline: Deadline) -> Map {
     let mut cells = Vec::new();
     for exponent in EXPONENTS_OF_YOUNG {
         for part in 0..TIME_STEPS as i32 {
@@ -85,11 +86,11 @@ fn map(integrator: &'static str, omega: f64, most: usize, deadline: Deadline) ->
         }
     }
     let limit = largest(integrator, most).map(|z| (z / omega).powi(2));
-    Map { integrator: integrator.to_owned(), limit, most_steps: most, cells }
+    Map { integrator, limit, most_steps: most, cells }
 }
 
 /// ω_max dt below which a run of `most` steps survives.
-fn largest(integrator: &str, most: usize) -> Option<f64> {
+fn largest(integrator: Integrator, most: usize) -> Option<f64> {
     let limit = theory::limit(integrator)?;
     if limit > 0.0 {
         return Some(limit);

@@ -2,6 +2,7 @@
 //! element is its inside, so that elements may stay inverted: asked for are finite states, steps that converge, and rest in the end.
 
 use fem_engine::simulator::Simulator;
+use fem_model::Integrator;
 use nalgebra::Vector3;
 
 use super::stiffness_and_step::{DT, YOUNG};
@@ -9,7 +10,7 @@ use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::initial_state::{Random, place, place_moving};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, DYNAMIC, SceneText, gravity, prescribed_end};
+use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText, dynamic, gravity, prescribed_end};
 use crate::study::Deadline;
 
 const FAMILY: &str = "mass-spring bodies";
@@ -24,7 +25,7 @@ const STILL: f64 = 1e-2;
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let omega = unit_omega(MODEL);
-    for integrator in DYNAMIC {
+    for integrator in dynamic() {
         for young in YOUNG {
             for dt in DT {
                 cases.push(vibrating(integrator, young, dt, omega, quick));
@@ -33,7 +34,9 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
         cases.push(rigid(integrator, if quick { 100 } else { 1000 }));
     }
     for young in if quick { &YOUNG[1..2] } else { &YOUNG } {
-        for (integrator, dt) in [("implicit_euler", DT[1]), ("implicit_euler", DT[2]), ("bdf2", DT[1])] {
+        for (integrator, dt) in
+            [(Integrator::ImplicitEuler, DT[1]), (Integrator::ImplicitEuler, DT[2]), (Integrator::Bdf2, DT[1])]
+        {
             cases.push(weighed(integrator, *young, dt));
         }
     }
@@ -43,13 +46,13 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
         }
     }
     for (name, motion) in ENDS {
-        for integrator in ["implicit_euler", "static"] {
+        for integrator in [Integrator::ImplicitEuler, Integrator::Static] {
             cases.push(moved(name, motion, integrator));
         }
     }
 }
 
-fn vibrating(integrator: &'static str, young: f64, dt: f64, unit_omega: f64, quick: bool) -> Case {
+fn vibrating(integrator: Integrator, young: f64, dt: f64, unit_omega: f64, quick: bool) -> Case {
     let z = unit_omega * young.sqrt() * dt;
     let forecast = forecast(integrator, z, if quick { 1000 } else { 20_000 });
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, dt omega_max = {z:.3e}, {} steps", forecast.steps);
@@ -65,7 +68,7 @@ fn vibrating(integrator: &'static str, young: f64, dt: f64, unit_omega: f64, qui
 }
 
 /// A clamped body under a weight of a fifth of E times its cross-section, in the end at rest.
-fn weighed(integrator: &'static str, young: f64, dt: f64) -> Case {
+fn weighed(integrator: Integrator, young: f64, dt: f64) -> Case {
     let text = clamped(integrator, MODEL, young, dt).with(&gravity([0.0, 0.0, -0.1 * young / 1e3]));
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, 50 steps");
     of_springs(&text, "clamped body, sagging under a fifth of E times its cross-section", parameters, {
@@ -92,7 +95,7 @@ const CENTRE: Vector3<f64> = Vector3::new(1.0, 0.5, 0.5);
 const STEPS: usize = 600;
 
 fn tangled(name: &str, tangle: Tangle, seed: u64) -> Case {
-    let text = SceneText { dt: 0.05, ..SceneText::finer("implicit_euler", MODEL) }.with(CLAMPED).with(DAMPED);
+    let text = SceneText { dt: 0.05, ..SceneText::finer(Integrator::ImplicitEuler, MODEL) }.with(CLAMPED).with(DAMPED);
     let parameters = format!("E = 1e5 Pa, dt = {} s, {STEPS} steps", text.dt);
     let case = of_springs(&text, name, parameters, {
         let text = text.clone();
@@ -124,8 +127,8 @@ const ENDS: [(&str, &str); 3] = [
     ("turned twice", "rotation = { axis = \"x\", center = [0, 0.5, 0.5], turns = 2 }"),
 ];
 
-fn moved(name: &str, motion: &str, integrator: &'static str) -> Case {
-    let load_steps = if integrator == "static" { "[static]\nload_steps = 50\n" } else { "" };
+fn moved(name: &str, motion: &str, integrator: Integrator) -> Case {
+    let load_steps = if integrator == Integrator::Static { "[static]\nload_steps = 50\n" } else { "" };
     let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, MODEL) };
     let text = text.with(CLAMPED).with(load_steps).with(&prescribed_end(motion, 2.5));
     of_springs(&text, name, "E = 1e5 Pa, dt = 0.05 s, 50 steps".to_owned(), {
@@ -135,7 +138,7 @@ fn moved(name: &str, motion: &str, integrator: &'static str) -> Case {
 }
 
 /// A free flat body in rigid motion without loads, which conserves its momentum.
-fn rigid(integrator: &'static str, steps: usize) -> Case {
+fn rigid(integrator: Integrator, steps: usize) -> Case {
     let mesh = "rectangle = { size = [2, 1], pattern = \"kuhn\", cells_per_unit = 2 }".to_owned();
     let text = SceneText { dt: 1e-3, mesh, ..SceneText::small(integrator, MODEL) };
     let case = text.clone().case(FAMILY, "translating and rotating", format!("dt = 1e-3 s, {steps} steps"), {

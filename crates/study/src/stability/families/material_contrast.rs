@@ -1,9 +1,7 @@
 //! Neighbouring elements with very different stiffness or density.
 
-use std::path::Path;
-
 use fem_engine::simulator::Simulator;
-use fem_scene::body;
+use fem_model::Integrator;
 
 use crate::stability::case::{Case, Finding};
 use crate::stability::forecast::excite;
@@ -30,13 +28,13 @@ const CONTRASTS: [Contrast; 4] = [
 ];
 
 /// Integrators and time steps, s; Verlet takes its own.
-const METHODS: [(&str, f64); 6] = [
-    ("implicit_euler", 1e-5),
-    ("implicit_euler", 0.01),
-    ("implicit_euler", 1.0),
-    ("linearly_implicit_euler", 0.01),
-    ("static", 1.0),
-    ("verlet", 1.0),
+const METHODS: [(Integrator, f64); 6] = [
+    (Integrator::ImplicitEuler, 1e-5),
+    (Integrator::ImplicitEuler, 0.01),
+    (Integrator::ImplicitEuler, 1.0),
+    (Integrator::LinearlyImplicitEuler, 0.01),
+    (Integrator::Static, 1.0),
+    (Integrator::Verlet, 1.0),
 ];
 
 /// Adds the family.
@@ -52,19 +50,19 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 }
 
 fn case(contrast: Contrast, text: SceneText, steps: usize) -> Case {
-    let steps = if text.integrator == "static" { 1 } else { steps };
+    let steps = if text.integrator == Integrator::Static { 1 } else { steps };
     let soft = text.young * contrast.young.min(1.0);
     let heavy = text.density * contrast.density.max(1.0);
     // A hundredth of the stiffness of the softer half.
     let mut text = text.with(&gravity([0.0, 0.0, -0.01 * soft / heavy]));
-    let step = if text.integrator == "verlet" {
+    let step = if text.integrator == Integrator::Verlet {
         "0.9 of the largest stable step".to_owned()
     } else {
         format!("{:e} s", text.dt)
     };
     let parameters = format!("at the clamp E = {:e} Pa, 1e3 kg/m3; dt = {step}, {steps} steps", text.young);
     text.clone().case(FAMILY, contrast.name, parameters, move |deadline| {
-        if text.integrator == "verlet" {
+        if text.integrator == Integrator::Verlet {
             text.dt = 0.9 * 2.0 / excite(&mut build(&text, contrast)?, 0.0)?.omega;
         }
         Ok(march(&mut build(&text, contrast)?, steps, deadline).survival())
@@ -72,8 +70,7 @@ fn case(contrast: Contrast, text: SceneText, steps: usize) -> Case {
 }
 
 fn build(text: &SceneText, contrast: Contrast) -> Result<Simulator<f64>, Finding> {
-    let scene = text.scene().map_err(refused)?;
-    let mut body = body(&scene, Path::new("")).map_err(refused)?;
+    let (scene, mut body) = text.scene_and_body()?;
     let mesh = &body.shape.mesh;
     let is_beyond = |nodes: &[usize]| nodes.iter().map(|&node| mesh.vertices()[node].x).sum::<f64>() > 4.0;
     let beyond: Vec<bool> = mesh.corners().map(is_beyond).collect();

@@ -1,5 +1,6 @@
 //! Plastic flow: fast and slow creep, low yield, stiff bodies, large strains. The dissipated energy never falls.
 
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 
 use crate::stability::case::{Case, Finding, Outcome};
@@ -19,8 +20,11 @@ const BODIES: [(&str, &str); 2] = [
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let bodies = if quick { &BODIES[1..] } else { &BODIES[..] };
     for (name, mesh) in bodies {
-        let text =
-            |model, young| SceneText { mesh: (*mesh).to_owned(), young, ..SceneText::small("implicit_euler", model) };
+        let text = |model, young| SceneText {
+            mesh: (*mesh).to_owned(),
+            young,
+            ..SceneText::small(Integrator::ImplicitEuler, model)
+        };
         for young in if quick { vec![1e5] } else { vec![1e2, 1e5, 1e12] } {
             for creep in [1e-3, 1.0, 1e9] {
                 for yield_strain in [1e-12, 0.05] {

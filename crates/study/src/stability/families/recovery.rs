@@ -7,6 +7,7 @@
 //! distinguish from the undeformed state.
 
 use fem_engine::simulator::Simulator;
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
@@ -94,7 +95,8 @@ const STEPS: usize = 600;
 pub const MARGIN_IS: &str = "distance from rest / 1e-3 of the length; recovered below 1";
 
 fn recovering(name: &str, tangle: Tangle, expected: Outcome, is_clamped: bool, seed: u64) -> Case {
-    let text = SceneText { dt: 0.05, poisson: 0.4, ..SceneText::finer("implicit_euler", "stable_neo_hookean") };
+    let text =
+        SceneText { dt: 0.05, poisson: 0.4, ..SceneText::finer(Integrator::ImplicitEuler, "stable_neo_hookean") };
     let text = if is_clamped { text.with(CLAMPED) } else { text }.with(DAMPED);
     let expected = if name == "reflected" && is_clamped { Outcome::Untangles } else { expected };
     let name = format!("{name}, {}", if is_clamped { "clamped" } else { "free" });

@@ -1,5 +1,6 @@
 //! Unusable scenes and meshes, which an error that names the element or key must refuse.
 
+use fem_model::Integrator;
 use std::path::Path;
 
 use nalgebra::Vector3;
@@ -15,7 +16,8 @@ const FAMILY: &str = "refusals";
 pub fn add(cases: &mut Vec<Case>) {
     for (name, from, to, names) in FIELDS {
         cases.push(case(name, format!("`{}`", to.replace('\n', "; ")), names, move || {
-            let text = SceneText::small("implicit_euler", "neo_hookean").with(CLAMPED).text().replace(from, to);
+            let text =
+                SceneText::small(Integrator::ImplicitEuler, "neo_hookean").with(CLAMPED).text().replace(from, to);
             match parse(&text, Path::new("case.toml")) {
                 Ok(scene) => fem_scene::body(&scene, Path::new("")).map(|_| ()).map_err(|error| error.to_string()),
                 Err(error) => Err(error.to_string()),
@@ -27,7 +29,7 @@ pub fn add(cases: &mut Vec<Case>) {
             let mut mesh =
                 fem_mesh::box_mesh([2.0, 1.0, 1.0], 1, fem_mesh::Pattern::Kuhn).map_err(|error| error.to_string())?;
             spoil(&mut mesh);
-            let text = SceneText::small("implicit_euler", "neo_hookean");
+            let text = SceneText::small(Integrator::ImplicitEuler, "neo_hookean");
             text.build_on(mesh).map(|_| ()).map_err(|finding| finding.note)
         }));
     }

@@ -1,6 +1,7 @@
 //! Elements with an aspect ratio of a million.
 
 use fem_mesh::TetrahedralMesh;
+use fem_model::Integrator;
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Finding};
@@ -17,7 +18,9 @@ const ASPECT: f64 = 1e6;
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     for thin in [Thin::Sheet, Thin::Needle] {
         for model in ["neo_hookean", "stable_neo_hookean"] {
-            for integrator in ["implicit_euler", "linearly_implicit_euler", "static", "verlet"] {
+            for integrator in
+                [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler, Integrator::Static, Integrator::Verlet]
+            {
                 cases.push(sliver(thin, model, integrator, if quick { 10 } else { 100 }));
             }
         }
@@ -44,17 +47,17 @@ fn mesh(thin: Thin) -> Result<TetrahedralMesh, Finding> {
     }
 }
 
-fn sliver(thin: Thin, model: &'static str, integrator: &'static str, steps: usize) -> Case {
+fn sliver(thin: Thin, model: &'static str, integrator: Integrator, steps: usize) -> Case {
     let mut text = SceneText::small(integrator, model).with(CLAMPED).with(&gravity([0.0, 0.0, -2.0]));
-    let steps = if integrator == "static" { 1 } else { steps };
-    let step = if integrator == "verlet" { "half of the largest stable step" } else { "0.01 s" };
+    let steps = if integrator == Integrator::Static { 1 } else { steps };
+    let step = if integrator == Integrator::Verlet { "half of the largest stable step" } else { "0.01 s" };
     let name = match thin {
         Thin::Sheet => "a layer of flat elements",
         Thin::Needle => "crossing layers with needles",
     };
     let parameters = format!("aspect ratio {ASPECT:e}, dt = {step}, {steps} steps");
     text.clone().case(FAMILY, name, parameters, move |deadline| {
-        if text.integrator == "verlet" {
+        if text.integrator == Integrator::Verlet {
             text.dt = 1.0 / excite(&mut text.build_on(mesh(thin)?)?, 0.0)?.omega;
         }
         Ok(march(&mut text.build_on(mesh(thin)?)?, steps, deadline).survival())

@@ -1,13 +1,14 @@
 //! Each integrator near its stability limit, and the growth rate of the highest mode.
 
 use fem_engine::simulator::Simulator;
+use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, excite, forecast, try_forecast};
 use crate::stability::march::march;
-use crate::stability::scene_text::{DYNAMIC, LUMPED, SceneText};
-use crate::stability::theory;
+use crate::stability::scene_text::{LUMPED, SceneText, dynamic};
+use crate::stability::theory::{self, Scheme};
 use crate::study::Deadline;
 
 const FAMILY: &str = "stability limits";
@@ -18,16 +19,17 @@ const MOST: usize = 40_000;
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let parts: &[f64] = if quick { &[0.99, 1.01] } else { &[0.5, 0.9, 0.98, 0.99, 1.01, 1.02, 1.1, 2.0] };
-    for integrator in ["semi_implicit_euler", "verlet", "rk4", theory::FOX_GOODWIN] {
+    let schemes = [Integrator::SemiImplicitEuler, Integrator::Verlet, Integrator::Rk4].map(Scheme::Of);
+    for scheme in schemes.into_iter().chain([Scheme::FoxGoodwin]) {
         for mass in ["", LUMPED] {
-            cases.extend(parts.iter().map(|&part| near(integrator, "linear", mass, part)));
+            cases.extend(parts.iter().map(|&part| near(scheme, "linear", mass, part)));
             // Natural frequencies of the nonlinear material change with the amplitude, by less than a tenth.
-            cases.extend([0.9, 1.1].map(|part| near(integrator, "neo_hookean", mass, part)));
+            cases.extend([0.9, 1.1].map(|part| near(scheme, "neo_hookean", mass, part)));
         }
     }
     // The other three have more roots or stages, whose sum shows no rate at first; tests of the engine measure their damping.
-    for integrator in
-        DYNAMIC.into_iter().filter(|integrator| !["generalized_alpha", "bdf2", "bathe"].contains(integrator))
+    for integrator in dynamic()
+        .filter(|integrator| ![Integrator::GeneralizedAlpha, Integrator::Bdf2, Integrator::Bathe].contains(integrator))
     {
         for z in [0.1, 0.5, 1.0, 1.9, 2.5, 3.0, 30.0] {
             cases.push(growing(integrator, z));
@@ -36,12 +38,12 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 }
 
 /// At a part of the stability limit for the body's own mesh, mass and stiffness.
-fn near(integrator: &'static str, model: &'static str, mass: &'static str, part: f64) -> Case {
-    let z = part * theory::limit(integrator).unwrap_or(f64::INFINITY);
-    let forecast = forecast(integrator, z, MOST);
-    let (integrator, method, note) = match integrator {
-        theory::FOX_GOODWIN => ("newmark", "[newmark]\nbeta = 0.083333333333\n", ", beta = 1/12"),
-        _ => (integrator, "", ""),
+fn near(scheme: Scheme, model: &'static str, mass: &'static str, part: f64) -> Case {
+    let z = part * theory::limit(scheme).unwrap_or(f64::INFINITY);
+    let forecast = forecast(scheme, z, MOST);
+    let (integrator, method, note) = match scheme {
+        Scheme::FoxGoodwin => (Integrator::Newmark, "[newmark]\nbeta = 0.083333333333\n", ", beta = 1/12"),
+        Scheme::Of(integrator) => (integrator, "", ""),
     };
     let text = clamped(integrator, model, 1e5, 1.0).with(mass).with(method);
     let name = if mass.is_empty() { "consistent" } else { "lumped" };
@@ -62,7 +64,7 @@ fn with_step(text: SceneText, z: f64) -> Result<SceneText, Finding> {
 }
 
 /// Growth or decay of the highest mode against theory.
-fn growing(integrator: &'static str, z: f64) -> Case {
+fn growing(integrator: Integrator, z: f64) -> Case {
     let growth = theory::growth(integrator, z);
     let explodes = growth > 0.0 && steps_to_overflow(growth) <= MOST;
     let text = clamped(integrator, "linear", 1e5, 1.0);

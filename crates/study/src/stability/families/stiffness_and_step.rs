@@ -3,8 +3,9 @@
 use crate::stability::case::{Case, Outcome, SMALLEST_J};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::march::march;
-use crate::stability::scene_text::{DYNAMIC, LAWS, SceneText, gravity};
+use crate::stability::scene_text::{LAWS, SceneText, dynamic, gravity};
 use crate::stability::theory;
+use fem_model::Integrator;
 
 const FAMILY: &str = "stiffness and time step";
 
@@ -15,7 +16,7 @@ pub const YOUNG: [f64; 4] = [1e2, 1e5, 1e8, 1e12];
 pub const DT: [f64; 3] = [1e-5, 1e-2, 1.0];
 
 /// The margin of an integrator.
-fn margin_is(integrator: &str) -> &'static str {
+fn margin_is(integrator: Integrator) -> &'static str {
     match theory::limit(integrator) {
         None => SMALLEST_J,
         Some(0.0) => "e-folds of the highest mode over those that end the run; no step is stable",
@@ -27,7 +28,7 @@ fn margin_is(integrator: &str) -> &'static str {
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let omega = unit_omega("linear");
     let laws: &[&str] = if quick { &LAWS[3..] } else { &LAWS };
-    for integrator in DYNAMIC {
+    for integrator in dynamic() {
         for &model in laws {
             for young in YOUNG {
                 for dt in DT {
@@ -39,7 +40,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     add_weighed(cases, quick);
 }
 
-fn vibrating(integrator: &'static str, model: &'static str, young: f64, dt: f64, unit_omega: f64, quick: bool) -> Case {
+fn vibrating(integrator: Integrator, model: &'static str, young: f64, dt: f64, unit_omega: f64, quick: bool) -> Case {
     let z = unit_omega * young.sqrt() * dt;
     let forecast = forecast(integrator, z, if quick { 2000 } else { 20_000 });
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, dt omega_max = {z:.3e}, {} steps", forecast.steps);
@@ -55,14 +56,19 @@ fn vibrating(integrator: &'static str, model: &'static str, young: f64, dt: f64,
 
 /// The end of a vibration of St. Venant–Kirchhoff's law, which softens in compression, if a step of Newmark's method, many of its periods
 /// long, throws elements through themselves: it gains energy.
-fn thrown(integrator: &str, model: &str, z: f64) -> Option<Outcome> {
-    let is_thrown = integrator == "newmark" && model == "st_venant_kirchhoff" && (50.0..100.0).contains(&z);
+fn thrown(integrator: Integrator, model: &str, z: f64) -> Option<Outcome> {
+    let is_thrown = integrator == Integrator::Newmark && model == "st_venant_kirchhoff" && (50.0..100.0).contains(&z);
     is_thrown.then_some(Outcome::Explodes)
 }
 
 /// Under a weight as large as the stiffness: ρ g L = E.
 fn add_weighed(cases: &mut Vec<Case>, quick: bool) {
-    let methods = [("implicit_euler", DT[0]), ("implicit_euler", DT[1]), ("implicit_euler", DT[2]), ("static", 1.0)];
+    let methods = [
+        (Integrator::ImplicitEuler, DT[0]),
+        (Integrator::ImplicitEuler, DT[1]),
+        (Integrator::ImplicitEuler, DT[2]),
+        (Integrator::Static, 1.0),
+    ];
     for model in ["neo_hookean", "stable_neo_hookean"] {
         for young in if quick { &YOUNG[..1] } else { &YOUNG } {
             for (integrator, dt) in methods {
@@ -70,7 +76,7 @@ fn add_weighed(cases: &mut Vec<Case>, quick: bool) {
                     let text = clamped(integrator, model, *young, dt);
                     let g = text.young / (text.density * 2.0);
                     let text = text.with(&gravity(direction.map(|x| x * g)));
-                    cases.push(weighed(name, text, if integrator == "static" { 1 } else { 50 }));
+                    cases.push(weighed(name, text, if integrator == Integrator::Static { 1 } else { 50 }));
                 }
             }
         }

@@ -10,7 +10,7 @@ use crate::runs::plan::PlannedRun;
 use crate::runs::row::{Configuration, Errors};
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
-use fem_model::{Integrator, Precision, Projection};
+use fem_model::{Family, Precision, Projection};
 use fem_scene::Pipeline;
 
 /// Errors of a completed run.
@@ -60,7 +60,7 @@ pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> C
         Projection::Always => "always",
         Projection::Never => "never",
     };
-    let has_matrix = is_newton || scene.time.integrator == Integrator::LinearlyImplicitEuler;
+    let has_matrix = is_newton || scene.time.integrator.facts().family == Family::Linearized;
     let solver = if is_course { "course cholesky".to_owned() } else { names::solver_name(scene) };
     let engine = |value: f64| if is_course { None } else { Some(value) };
     Configuration {
@@ -68,14 +68,14 @@ pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> C
         scene: scene.name.clone(),
         group: run.group.to_owned(),
         method: run.method.clone(),
-        pipeline: if is_course { "course" } else { "engine" },
+        pipeline: if is_course { "course" } else { "engine" }.to_owned(),
         mesh_hash: body.hash.clone(),
         nodes: body.mesh.vertices().len(),
         elements: body.mesh.elements(),
         young: moduli.map(|moduli| moduli.young),
         poisson: moduli.map(|moduli| moduli.poisson),
-        integrator: scene.time.integrator.name(),
-        projection: if has_matrix { projection } else { "none" },
+        integrator: scene.time.integrator,
+        projection: if has_matrix { projection } else { "none" }.to_owned(),
         solver: if has_matrix { solver } else { "none".to_owned() },
         dt: scene.time.dt(),
         steps: run.steps,
@@ -84,7 +84,7 @@ pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> C
             (true, _) => 5,
             (false, given) => given.unwrap_or(50),
         }),
-        precision: if scene.time.precision == Precision::F32 { "f32" } else { "f64" },
+        precision: if scene.time.precision == Precision::F32 { "f32" } else { "f64" }.to_owned(),
     }
 }
 

@@ -48,7 +48,7 @@ impl StudyMeshes<'_> {
             }
         }
         let levels: [Level; 3] = levels.try_into().map_err(|_| "three meshes give three levels".to_owned())?;
-        Ok(nested::compare(&levels).filter(|nested| nested.orders.0.is_finite()))
+        Ok(nested::compare(&levels).filter(|nested| nested.orders.0.is_finite() && nested.orders.1.is_finite()))
     }
 
     /// One level. The inner error says why its state cannot be computed; the outer error is that of a file.

@@ -75,18 +75,16 @@ impl StudyMeshes<'_> {
         let snapshot = Snapshot { time: *time, q, qdot, energies: *energies };
         write_state(&self.settings.out.join(&state), &snapshot)?;
         let start = outcome.history.first().map_or(0.0, |first| first.1);
-        study.histories.push(outcome.history.iter().map(|(time, energy)| (*time, energy - start)).collect());
+        let change = |&(time, energy): &(f64, f64)| Some((time, energy - start)).filter(|_| energy.is_finite());
+        study.histories.push(outcome.history.iter().filter_map(change).collect());
         let errors = if outcome.failure.is_none() { errors(run, outcome, body, study) } else { Errors::default() };
         study.rows.push(Row {
-            config: configuration(id, run, body),
             errors,
             counters: outcome.counters,
             peak_mb: outcome.peak_mb,
-            min_j: Some(outcome.min_j),
+            min_j: Some(outcome.min_j).filter(|min_j| min_j.is_finite()),
             status: status(outcome),
-            state,
-            reference_state: body.file.clone(),
-            ..Row::default()
+            ..Row::new(configuration(id, run, body), state, body.file.clone())
         });
         Ok(())
     }

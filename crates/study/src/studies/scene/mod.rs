@@ -18,9 +18,10 @@ use fem_model::Integrator;
 use fem_scene::Scene;
 use fem_scene::simulate::quantile;
 use meshes::StudyMeshes;
+use serde::{Deserialize, Serialize};
 
 /// The results of one scene.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct SceneStudy {
     /// Name of the scene.
     pub name: String,
@@ -67,6 +68,7 @@ pub enum Question {
 
 /// Studies a scene.
 pub fn study(settings: &Settings, scene: &Scene, question: Question) -> Result<SceneStudy, String> {
+    super::make_folders(&settings.out)?;
     let base = plan::base(scene, settings.is_quick);
     let own_steps = base.time.steps.unwrap_or(50);
     let is_short = settings.is_quick && question == Question::Choice;
@@ -182,7 +184,7 @@ fn stand(rows: &mut [Row]) {
         };
         let (places, contenders): (Vec<usize>, Vec<Contender>) = rows.iter().enumerate().filter_map(contender).unzip();
         for (place, standing) in places.into_iter().zip(standings(&contenders)) {
-            rows[place].standing = standing.name();
+            rows[place].standing = standing.name().to_owned();
         }
     }
 }

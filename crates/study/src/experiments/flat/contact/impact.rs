@@ -1,8 +1,9 @@
 //! A bar that hits a wall: the wave of compression runs to its free end and back.
 
+use fem_model::Integrator;
 use fem_model::simulation::{Diagnostics, Simulation};
 
-use super::momentum;
+use super::{has_barrier, momentum};
 use crate::scenes::{double, step};
 
 /// 2 L/c for the bar of 1 m and c = 10 m/s, s.
@@ -21,15 +22,16 @@ pub struct Impact {
 }
 
 /// A bar of 1 m in 100 squares without lateral contraction, which meets a wall at x = 0 with 0.1 m/s.
-pub fn bar(method: &str) -> Result<Impact, String> {
+pub fn bar(method: Integrator) -> Result<Impact, String> {
     let dt = 4e-4;
-    let contact = if method == "implicit_euler" { "[contact]\nactivation_distance = 2e-5\n" } else { "" };
+    let contact = if has_barrier(method) { "[contact]\nactivation_distance = 2e-5\n" } else { "" };
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 0.01], cells_per_unit = 100, pattern = \"kuhn\" }}\n\
          [material]\nmodel = \"linear\"\nyoung = 1e5\npoisson = 0\ndensity = 1000\n\
-         [time]\ndt = {dt:e}\nintegrator = \"{method}\"\n\
+         [time]\ndt = {dt:e}\nintegrator = \"{}\"\n\
          [[planes]]\npoint = [-1e-6, 0, 0]\nnormal = [1, 0, 0]\n{contact}\
-         [[initial_velocity]]\nvelocity = [-0.1, 0, 0]\n"
+         [[initial_velocity]]\nvelocity = [-0.1, 0, 0]\n",
+        method.name()
     );
     let mut simulation = double(&text, None)?;
     let before = momentum(&simulation);

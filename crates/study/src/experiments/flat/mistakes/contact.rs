@@ -1,5 +1,6 @@
 //! Friction, and the order of projection and integration.
 
+use fem_model::Integrator;
 use fem_model::simulation::Diagnostics;
 
 use crate::experiments::flat::contact::incline;
@@ -22,7 +23,7 @@ pub fn friction(quick: bool) -> Result<Vec<Mistake>, String> {
             right: "Coulomb's law",
             quantity: format!("way to rest with {substeps} substeps a frame (m)"),
             theirs: multiplied(dt),
-            ours: incline::way("implicit_euler", dt)?,
+            ours: incline::way(Integrator::ImplicitEuler, dt)?,
             truth: incline::STOPPING,
             tolerance,
         })

@@ -1,7 +1,7 @@
 //! A body with its material and time step, and the motions that all methods are measured by.
 
-use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
+use fem_model::{BodyMesh, Integrator};
 use nalgebra::DVector;
 
 use super::bodies::Shape;
@@ -46,7 +46,7 @@ impl Case {
     }
 
     /// The scene of a model with an integrator and its tables, and the mesh.
-    pub fn scene(&self, model: &str, integrator: &str, tables: &str) -> (String, BodyMesh) {
+    pub fn scene(&self, model: &str, integrator: Integrator, tables: &str) -> (String, BodyMesh) {
         let (mesh, clamp) = self.shape.mesh(self.cells);
         let Self { young, poisson, rate, .. } = self;
         let poisson = if model == SPRINGS { String::new() } else { format!("poisson = {poisson}\n") };
@@ -58,8 +58,9 @@ impl Case {
         let text = format!(
             "pipeline = \"engine\"\n[mesh]\n{shape}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n{poisson}{plane}\
              density = {DENSITY}\n[mass]\nlumped = true\n[gravity]\nacceleration = {down:?}\n[fixed]\nplane = {{ axis = \"x\", below = {clamp:e} }}\n\
-             {tables}[time]\ndt = {:e}\nintegrator = \"{integrator}\"\n",
-            1.0 / *rate as f64
+             {tables}[time]\ndt = {:e}\nintegrator = \"{}\"\n",
+            1.0 / *rate as f64,
+            integrator.name()
         );
         (text, mesh)
     }
@@ -68,7 +69,7 @@ impl Case {
     ///
     /// # Errors
     /// A scene that the engine refuses.
-    pub fn simulation(&self, model: &str, integrator: &str, tables: &str) -> Result<Box<dyn Simulation>, String> {
+    pub fn simulation(&self, model: &str, integrator: Integrator, tables: &str) -> Result<Box<dyn Simulation>, String> {
         let (text, mesh) = self.scene(model, integrator, tables);
         simulation(&text, mesh)
     }
@@ -81,7 +82,7 @@ impl Case {
 
     /// Positions at the end of the equations of motion of a model, integrated to round-off, m.
     fn exact(&self, model: &str) -> Result<DVector<f64>, String> {
-        let (text, mesh) = self.scene(model, "verlet", "");
+        let (text, mesh) = self.scene(model, Integrator::Verlet, "");
         let (_, body) = scene_and_body(&text, Some(mesh)).map_err(|error| error.to_string())?;
         let equations = Equations::new(body)?;
         Ok(reference(&equations, self.steps as f64 / self.rate as f64, PATIENCE)?.q)
@@ -93,7 +94,8 @@ impl Case {
     /// A converged motion that fails, or a reference that does not converge.
     pub fn measures(&self) -> Result<Measures, String> {
         let named = |error: String| format!("{}: {error}", self.name());
-        let mut simulation = self.simulation(LAW, "implicit_euler", "[newton]\ntolerance = 1e-14\n").map_err(named)?;
+        let mut simulation =
+            self.simulation(LAW, Integrator::ImplicitEuler, "[newton]\ntolerance = 1e-14\n").map_err(named)?;
         for _ in 0..self.steps {
             simulation.step().map_err(|failure| named(failure.to_string()))?;
         }

@@ -1,5 +1,7 @@
 //! The methods that are compared, with the parameters that are swept and tuned.
 
+use fem_model::Integrator;
+
 use super::case::{LAW, SPRINGS};
 
 /// A method.
@@ -9,8 +11,8 @@ pub struct Contender {
     pub name: &'static str,
     /// The model of the material.
     pub model: &'static str,
-    /// The name in scenes.
-    pub integrator: &'static str,
+    /// The method of its steps.
+    pub integrator: Integrator,
     /// Kind of its iterations.
     pub sweep: Sweep,
     /// A key of `[iterations]`, and the values from which the best is taken for each case.
@@ -30,8 +32,14 @@ pub enum Sweep {
     Whole,
 }
 
-const NEWTON: Contender =
-    Contender { name: "Newton", model: LAW, integrator: "implicit_euler", sweep: Sweep::Newton, tuned: None, keys: "" };
+const NEWTON: Contender = Contender {
+    name: "Newton",
+    model: LAW,
+    integrator: Integrator::ImplicitEuler,
+    sweep: Sweep::Newton,
+    tuned: None,
+    keys: "",
+};
 const ITERATED: Contender = Contender { sweep: Sweep::Iterations, ..NEWTON };
 
 /// Values that the two parameters without a rule for their choice are tuned over: as many for each.
@@ -41,19 +49,24 @@ const STIFFNESSES: &[f64] = &[0.01, 0.1, 0.5, 0.9, 1.0];
 /// All methods. Newton's is the first.
 pub const ALL: [Contender; 11] = [
     NEWTON,
-    Contender { name: "linearly implicit", integrator: "linearly_implicit_euler", sweep: Sweep::Whole, ..NEWTON },
-    Contender { name: "BDF2", integrator: "bdf2", sweep: Sweep::Whole, ..NEWTON },
-    Contender { name: "XPBD", integrator: "xpbd", ..ITERATED },
-    Contender { name: "XPBD, no residual", integrator: "xpbd", keys: "residual = false\n", ..ITERATED },
-    Contender { name: "VBD", integrator: "vbd", ..ITERATED },
-    Contender { name: "VBD, Chebyshev", integrator: "vbd", tuned: Some(("acceleration", RADII)), ..ITERATED },
-    Contender { name: "PD", integrator: "projective_dynamics", ..ITERATED },
-    Contender { name: "PBD", integrator: "pbd", tuned: Some(("stiffness", STIFFNESSES)), ..ITERATED },
+    Contender {
+        name: "linearly implicit",
+        integrator: Integrator::LinearlyImplicitEuler,
+        sweep: Sweep::Whole,
+        ..NEWTON
+    },
+    Contender { name: "BDF2", integrator: Integrator::Bdf2, sweep: Sweep::Whole, ..NEWTON },
+    Contender { name: "XPBD", integrator: Integrator::Xpbd, ..ITERATED },
+    Contender { name: "XPBD, no residual", integrator: Integrator::Xpbd, keys: "residual = false\n", ..ITERATED },
+    Contender { name: "VBD", integrator: Integrator::Vbd, ..ITERATED },
+    Contender { name: "VBD, Chebyshev", integrator: Integrator::Vbd, tuned: Some(("acceleration", RADII)), ..ITERATED },
+    Contender { name: "PD", integrator: Integrator::ProjectiveDynamics, ..ITERATED },
+    Contender { name: "PBD", integrator: Integrator::Pbd, tuned: Some(("stiffness", STIFFNESSES)), ..ITERATED },
     Contender { name: "springs, Newton", model: SPRINGS, sweep: Sweep::Whole, ..NEWTON },
     Contender {
         name: "springs, linearly implicit",
         model: SPRINGS,
-        integrator: "linearly_implicit_euler",
+        integrator: Integrator::LinearlyImplicitEuler,
         sweep: Sweep::Whole,
         ..NEWTON
     },
@@ -74,7 +87,7 @@ impl Contender {
 
     /// Returns true if the steps converge to those of implicit Euler for the elements, so that a solver error is defined.
     pub fn has_solver_error(&self) -> bool {
-        self.model == LAW && !["bdf2", "pbd"].contains(&self.integrator)
+        self.model == LAW && ![Integrator::Bdf2, Integrator::Pbd].contains(&self.integrator)
     }
 
     /// Returns true if the number of iterations is a parameter of the method.
