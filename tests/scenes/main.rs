@@ -23,6 +23,7 @@ mod mesh_refusals;
 mod mesh_shapes;
 mod momentum;
 mod one_step;
+mod own_studies;
 mod plasticity;
 mod probes;
 mod program;

@@ -34,7 +34,8 @@ const WHOLE: [&str; 18] = [
 ];
 
 /// Parts of these folders that show what the engine computes, or write and compare pages that students do not receive.
-const LEFT_OUT: [&str; 3] = ["include-docs/methods.md", "crates/scene/examples", "crates/scene/tests/reference.rs"];
+const LEFT_OUT: [&str; 4] =
+    ["include-docs/methods.md", "crates/scene/examples", "crates/scene/tests/reference.rs", "data/studies"];
 
 const README: &str = include_str!("../../handout/README.md");
 const PROGRAM: &str = include_str!("../../handout/main.rs");
