@@ -29,7 +29,8 @@ pub enum Study {
     /// Experiments of theses beside their figures
     Experiment(experiment::Arguments),
     /// A study of one's own: scenes, variations and what is expected of them, as a file
-    Study(own::Arguments),
+    #[command(name = "study")]
+    Own(own::Arguments),
     /// Joins the shards of a study into its tables, pictures and page
     Merge(merge::Arguments),
 }
@@ -46,7 +47,7 @@ impl Study {
             Self::Report(arguments) => report::run(course, arguments, merged),
             Self::Stability(arguments) => stability::run(course, arguments, merged),
             Self::Experiment(arguments) => experiment::run(course, arguments, merged),
-            Self::Study(arguments) => own::run(course, arguments, merged),
+            Self::Own(arguments) => own::run(course, arguments, merged),
             Self::Merge(arguments) => merge::run(course, arguments),
         }
     }

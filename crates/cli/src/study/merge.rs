@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser};
 use fem_study::study::arguments;
 
-use crate::cli::{self, Command};
+use super::Study;
 use crate::course::Course;
 use crate::end::End;
 
@@ -19,6 +19,13 @@ pub struct Arguments {
     pub out: PathBuf,
 }
 
+/// The arguments that have made the rows of a shard.
+#[derive(Debug, Parser)]
+struct Made {
+    #[command(subcommand)]
+    by: Study,
+}
+
 /// Runs the command of the first shard with the rows of all of them.
 pub fn run(course: &Course, Arguments { folders, out }: &Arguments) -> Result<(), End> {
     if folders.contains(out) {
@@ -26,12 +33,8 @@ pub fn run(course: &Course, Arguments { folders, out }: &Arguments) -> Result<()
     }
     let own = arguments(&folders[0]).map_err(End::unusable)?;
     let words = ["finite-elements-3d".into()].into_iter().chain(own.into_iter().map(Into::into));
-    let parsed = cli::Arguments::try_parse_from(words.chain(["--out".into(), out.clone().into_os_string()]));
-    match parsed.map(|parsed| parsed.command) {
-        Ok(Some(Command::Study(study))) => study.run_or_merge(course, folders),
-        _ => Err(End::unusable(format!(
-            "{}: holds rows of another program; merge with the one that wrote them",
-            folders[0].display()
-        ))),
-    }
+    let parsed = Made::try_parse_from(words.chain(["--out".into(), out.clone().into_os_string()]));
+    let unknown = "holds rows of another program; merge with the one that wrote them";
+    let made = parsed.map_err(|_| End::unusable(format!("{}: {unknown}", folders[0].display())))?;
+    made.by.run_or_merge(course, folders)
 }

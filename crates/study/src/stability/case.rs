@@ -3,9 +3,9 @@
 use std::fmt;
 use std::time::{Duration, Instant};
 
+use fem_model::Integrator;
 use serde::{Deserialize, Serialize};
 
-use super::families::maps::Map;
 use crate::study::{self, Deadline, Stopped, guarded};
 
 /// The outcome of a case.
@@ -170,6 +170,39 @@ impl From<Stopped> for Finding {
             Stopped::Hangs => Self::plain(Outcome::Hangs, "a step does not end"),
         }
     }
+}
+
+/// All pairs of one integrator.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Map {
+    /// Name of the integrator.
+    pub integrator: Integrator,
+    /// E dt² at the stability limit ω_max dt, Pa s². For integrators without a stable step: where the highest mode grows enough
+    /// within the run. `None` for unconditionally stable integrators.
+    pub limit: Option<f64>,
+    /// Steps of the longest run.
+    pub most_steps: usize,
+    /// Cells by rows, from the softest.
+    pub cells: Vec<Cell>,
+}
+
+/// One pair.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Cell {
+    /// Young's modulus, Pa.
+    pub young: f64,
+    /// Time step, s.
+    pub dt: f64,
+    /// ω_max dt
+    pub z: f64,
+    /// Steps of the run.
+    pub steps: usize,
+    /// The prediction of theory.
+    pub expected: Outcome,
+    /// The outcome.
+    pub outcome: Outcome,
+    /// The note of the run.
+    pub note: String,
 }
 
 /// A case with its result.

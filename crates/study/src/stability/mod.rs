@@ -12,8 +12,7 @@ mod results;
 mod scene_text;
 mod theory;
 
-pub use case::{CaseRow, Outcome};
-pub use families::maps::{Cell, Map};
+pub use case::{CaseRow, Cell, Map, Outcome};
 pub use results::{Counts, Results};
 
 use std::fs;

@@ -5,9 +5,9 @@ use fem_chart::{Cell, HeatMap, Picture, Shade};
 use fem_model::Integrator;
 use maud::{Markup, html};
 
-use super::case::{CaseRow, Outcome};
+use super::case::{self, CaseRow, Map, Outcome};
 use super::families::incompressibility::CANTILEVER;
-use super::families::maps::{self, EXPONENTS_OF_YOUNG, Map, PARTS_OF_DT, TIME_STEPS};
+use super::families::maps::{EXPONENTS_OF_YOUNG, PARTS_OF_DT, TIME_STEPS};
 use super::results::Results;
 
 /// The whole page.
@@ -96,7 +96,7 @@ fn words(integrator: Integrator) -> String {
 
 /// The map of an integrator.
 pub fn picture(map: &Map) -> Picture {
-    let cell = |(i, cell): (usize, &maps::Cell)| {
+    let cell = |(i, cell): (usize, &case::Cell)| {
         let shade = match cell.outcome {
             outcome if outcome != cell.expected => Shade::Fair,
             Outcome::Survives => Shade::Good,

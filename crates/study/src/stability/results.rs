@@ -5,8 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::case::CaseRow;
-use super::families::maps::Map;
+use super::case::{CaseRow, Map};
 use crate::csv_table::csv_text;
 use crate::machine::Machine;
 use crate::study::{Finished, Found};

@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::runner::{Shard, found};
+use super::shard::Shard;
 use super::{Case, Found, Trouble};
 use crate::machine::Machine;
 
@@ -47,6 +47,12 @@ pub(super) struct Line<Row> {
     pub case: usize,
     pub seconds: f64,
     pub row: Row,
+}
+
+/// Rows in the order of their lines.
+pub(super) fn found<Row>(lines: Vec<Line<Row>>, machine: Machine) -> Found<Row> {
+    let seconds = lines.iter().map(|line| line.seconds).sum();
+    Found { rows: lines.into_iter().map(|line| line.row).collect(), machine, seconds }
 }
 
 /// The file of a running study.

@@ -8,6 +8,7 @@ mod output;
 pub mod pack;
 mod page;
 mod runner;
+mod shard;
 #[cfg(test)]
 mod tests;
 
@@ -22,7 +23,8 @@ use crate::machine::Machine;
 pub use journal::arguments;
 pub use output::write;
 pub use page::{Figure, Mark, Page, Part, Table};
-pub use runner::{Deadline, Run, Shard, Stopped, Trouble, carry_out, guarded, rows};
+pub use runner::{Deadline, Run, Stopped, carry_out, guarded, rows};
+pub use shard::Shard;
 
 /// A case of a study.
 pub struct Case<'a, Row> {
@@ -81,4 +83,13 @@ pub struct Finished {
     pub lines: Vec<String>,
     /// What is not as expected; `None` if everything is.
     pub failed: Option<String>,
+}
+
+/// The reason why a study has no results.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Trouble {
+    /// A folder cannot be used, as a sentence with a remedy.
+    Unusable(String),
+    /// Shards lack rows.
+    Incomplete(String),
 }

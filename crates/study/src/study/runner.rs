@@ -1,58 +1,18 @@
 //! Runs the cases of a study: on several threads, a shard of them, or what a killed run has left; or joins the rows of shards.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::sync::Mutex;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use serde::{Deserialize, Serialize};
-
-use super::journal::{Heading, Journal, Line, joined};
-use super::{Case, Finished, Found, Study};
+use super::journal::{Heading, Journal, Line, found, joined};
+use super::shard::Shard;
+use super::{Case, Finished, Found, Study, Trouble};
 use crate::machine::Machine;
-
-/// The K-th of N parts of a study.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Shard {
-    /// From 1 to `of`.
-    pub number: usize,
-    /// Number of shards.
-    pub of: usize,
-}
-
-impl Shard {
-    /// The whole study.
-    pub const WHOLE: Self = Self { number: 1, of: 1 };
-
-    /// Returns true if a case belongs to the shard. Neighbouring cases, which often take as long, belong to different ones.
-    fn has(self, case: usize) -> bool {
-        case % self.of == self.number - 1
-    }
-}
-
-impl fmt::Display for Shard {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.number, self.of)
-    }
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
-        match numbers {
-            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
-            _ => Err("give K/N, the K-th of N shards, such as 2/8".to_owned()),
-        }
-    }
-}
 
 /// Where and how a study runs.
 pub struct Run<'a> {
@@ -68,15 +28,6 @@ pub struct Run<'a> {
     pub tell: &'a (dyn Fn(usize, usize, &str) + Sync),
     /// Receives a line about a row that is not as expected.
     pub remark: &'a (dyn Fn(&str) + Sync),
-}
-
-/// The reason why a study has no results.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Trouble {
-    /// A folder cannot be used, as a sentence with a remedy.
-    Unusable(String),
-    /// Shards lack rows.
-    Incomplete(String),
 }
 
 /// Runs a study and writes its files. A shard writes its rows alone.
@@ -117,11 +68,6 @@ pub fn rows<S: Study>(study: &S) -> Found<S::Row> {
     // Without a journal nothing is written.
     let lines = lines_of(study, study.cases(), BTreeMap::new(), None, &run).unwrap_or_default();
     found(lines, Machine::this(run.sources))
-}
-
-pub(super) fn found<Row>(lines: Vec<Line<Row>>, machine: Machine) -> Found<Row> {
-    let seconds = lines.iter().map(|line| line.seconds).sum();
-    Found { rows: lines.into_iter().map(|line| line.row).collect(), machine, seconds }
 }
 
 /// Runs the cases of a shard that have no row yet. Lines keep the order of the cases.

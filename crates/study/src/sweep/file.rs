@@ -98,7 +98,7 @@ pub fn read<'a>(
                     .reference
                     .as_ref()
                     .map(|keys| load(&own.iter().cloned().chain(overrides(keys)).collect::<Vec<_>>()));
-                let expected = case.expected.or(file.expected).or(measure.as_ref().and_then(|measure| zero(measure)));
+                let expected = case.expected.or(file.expected).or(measure.as_ref().and_then(zero));
                 scenes.push(SweptScene {
                     case: case.name.clone(),
                     scene: load(&own)?,

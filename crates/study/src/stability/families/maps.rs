@@ -3,9 +3,7 @@
 use fem_model::Integrator;
 use std::ops::RangeInclusive;
 
-use serde::{Deserialize, Serialize};
-
-use crate::stability::case::{Case, Finding, Outcome};
+use crate::stability::case::{Case, Cell, Finding, Map, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::scene_text::dynamic;
 use crate::stability::theory;
@@ -19,39 +17,6 @@ pub const PARTS_OF_DT: i32 = 2;
 
 /// Number of time steps.
 pub const TIME_STEPS: usize = 11;
-
-/// All pairs of one integrator.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Map {
-    /// Name of the integrator.
-    pub integrator: Integrator,
-    /// E dt² at the stability limit ω_max dt, Pa s². For integrators without a stable step: where the highest mode grows enough
-    /// within the run. `None` for unconditionally stable integrators.
-    pub limit: Option<f64>,
-    /// Steps of the longest run.
-    pub most_steps: usize,
-    /// Cells by rows, from the softest.
-    pub cells: Vec<Cell>,
-}
-
-/// One pair.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Cell {
-    /// Young's modulus, Pa.
-    pub young: f64,
-    /// Time step, s.
-    pub dt: f64,
-    /// ω_max dt
-    pub z: f64,
-    /// Steps of the run.
-    pub steps: usize,
-    /// The prediction of theory.
-    pub expected: Outcome,
-    /// The outcome.
-    pub outcome: Outcome,
-    /// The note of the run.
-    pub note: String,
-}
 
 /// Adds a case for the map of each integrator.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
