@@ -1,6 +1,6 @@
 //! Adaptive steps: estimated errors beside true ones.
 
-use fem_chart::page::{figure, table};
+use fem_chart::page::figure;
 use fem_chart::{Axis, Chart, Dot, Guide, Picture, SHAPES, Series};
 use fem_model::Integrator;
 use maud::{Markup, html};
@@ -8,6 +8,7 @@ use maud::{Markup, html};
 use super::text::{number, seconds};
 use crate::runs::row::Row;
 use crate::studies::scene::SceneStudy;
+use crate::study::{Column, Table};
 
 /// The completed runs of adaptive steps.
 fn rows(study: &SceneStudy) -> impl Iterator<Item = &Row> {
@@ -39,24 +40,22 @@ fn methods(study: &SceneStudy) -> Vec<Integrator> {
 /// The table and the chart.
 pub(super) fn html(study: &SceneStudy) -> Markup {
     let Some(picture) = chart(study) else { return html! {} };
-    let row = |row: &Row| {
-        let ratio = row.errors.time_linf.zip(row.errors.estimated).map(|(error, estimated)| error / estimated);
-        vec![
-            row.config.method.clone(),
-            row.counters.accepted_steps.to_string(),
-            row.counters.rejected_steps.to_string(),
-            number(row.errors.estimated),
-            number(row.errors.time_linf),
-            number(ratio),
-            seconds(row.seconds()),
-        ]
-    };
-    let head = ["run", ">steps", ">rejected", ">estimated error", ">true error", ">true / estimated", ">total"];
+    let columns: [Column<&Row>; 7] = [
+        ("run", &|row| row.config.method.clone()),
+        (">steps", &|row| row.counters.accepted_steps.to_string()),
+        (">rejected", &|row| row.counters.rejected_steps.to_string()),
+        (">estimated error", &|row| number(row.errors.estimated)),
+        (">true error", &|row| number(row.errors.time_linf)),
+        (">true / estimated", &|row| {
+            number(row.errors.time_linf.zip(row.errors.estimated).map(|(error, estimated)| error / estimated))
+        }),
+        (">total", &|row| seconds(row.seconds())),
+    ];
     let caption = "Estimates are those of the displacements of each step, added up; true errors are the largest distance from the reference at the \
         end, in which errors of earlier steps have grown or swung back.";
     html! {
         h3 { "Adaptive steps" }
         (figure(&picture, caption))
-        (table(&head, &rows(study).map(row).collect::<Vec<_>>()))
+        (Table::of("adaptive", &rows(study).collect::<Vec<_>>(), &columns).html())
     }
 }

@@ -16,7 +16,6 @@ use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::csv_table::csv_text;
 use crate::machine::Machine;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
 use crate::runs::row::Row;
@@ -25,7 +24,7 @@ use crate::space::{locking, manufactured};
 use crate::studies::Settings;
 use crate::studies::scene::{self, Question, SceneStudy};
 use crate::studies::space::{self, SpaceOrders, SpaceStudy};
-use crate::study::{Case, Finished, Found, Study};
+use crate::study::{Case, Column, Finished, Found, Study, Table};
 use fem_chart::page::page;
 use fem_mesh::write::save_bytes;
 use fem_scene::{Scene, parse};
@@ -223,29 +222,25 @@ fn body(report: &Report) -> Markup {
 
 fn orders_csv(report: &Report) -> Result<String, csv::Error> {
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
-    let row = |observed: Observed| {
-        let Observed { scene, method, of, order, expected } = observed;
-        let width = order.and_then(|order| order.half_width);
-        let points = order.map_or(String::new(), |order| order.points.to_string());
-        vec![
-            scene,
-            method,
-            of.to_owned(),
-            cell(order.map(|order| order.value)),
-            cell(width),
-            points,
-            expected.to_string(),
-        ]
-    };
-    let head = ["scene", "method", "of", "order", "half_width_95", "points", "expected"];
-    csv_text(&head, report.observed().into_iter().map(row))
+    let columns: [Column<Observed>; 7] = [
+        ("scene", &|of| of.scene.clone()),
+        ("method", &|of| of.method.clone()),
+        ("of", &|of| of.of.to_owned()),
+        ("order", &|of| cell(of.order.map(|order| order.value))),
+        ("half_width_95", &|of| cell(of.order.and_then(|order| order.half_width))),
+        ("points", &|of| of.order.map_or(String::new(), |order| order.points.to_string())),
+        ("expected", &|of| of.expected.to_string()),
+    ];
+    Table::of("orders", &report.observed(), &columns).csv()
 }
 
 fn locking_csv(report: &Report) -> Result<String, csv::Error> {
-    let row = |bent: &locking::TipDeflection| {
-        vec![bent.poisson.to_string(), bent.cells.to_string(), format!("{:e}", bent.ratio)]
-    };
-    csv_text(&["poisson", "cells_per_metre", "tip_over_timoshenko"], report.space.tip_deflections.iter().map(row))
+    let columns: [Column<locking::TipDeflection>; 3] = [
+        ("poisson", &|bent| bent.poisson.to_string()),
+        ("cells_per_metre", &|bent| bent.cells.to_string()),
+        ("tip_over_timoshenko", &|bent| format!("{:e}", bent.ratio)),
+    ];
+    Table::of("locking", &report.space.tip_deflections, &columns).csv()
 }
 
 fn as_json(report: &Report) -> Value {

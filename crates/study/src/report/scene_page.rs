@@ -4,9 +4,10 @@ use fem_chart::page::{details, figure, table};
 use maud::{Markup, html};
 
 use super::text::{number, percent, seconds, step, trimmed};
-use super::{adaptive, charts, orders_in_time};
+use super::{Observed, adaptive, charts, orders_in_time};
 use crate::runs::row::Row;
 use crate::studies::scene::{SceneStudy, competing_error};
+use crate::study::{Column, Table};
 
 /// A scene's part of the page.
 pub(super) fn html(study: &SceneStudy) -> Markup {
@@ -60,24 +61,28 @@ fn motion(study: &SceneStudy) -> Markup {
     }
 }
 
-const HEAD: [&str; 11] = [
-    "run",
-    ">time step",
-    ">error",
-    ">total",
-    ">quartiles",
-    ">processor",
-    ">a step",
-    ">forces",
-    ">Newton",
-    ">factors",
-    ">solver",
+/// A column of text.
+type TextColumn = (&'static str, fn(&Row) -> String);
+
+/// The columns of tables of runs.
+const COLUMNS: [TextColumn; 11] = [
+    ("run", |row| row.config.method.clone()),
+    (">time step", |row| step(row.config.dt)),
+    (">error", |row| number(competing_error(row))),
+    (">total", |row| seconds(row.seconds())),
+    (">quartiles", |row| format!("{} – {}", seconds(row.times.total_s[0]), seconds(row.times.total_s[2]))),
+    (">processor", |row| seconds(row.times.processor_s)),
+    (">a step", |row| seconds(row.times.step_ms[0].map(|ms| ms / 1e3))),
+    (">forces", |row| row.counters.force_assemblies.to_string()),
+    (">Newton", |row| row.counters.newton_iterations.to_string()),
+    (">factors", |row| row.counters.factorizations.to_string()),
+    (">solver", |row| row.counters.solver_iterations.to_string()),
 ];
 
 /// Name and cells of a column of markup.
 type MarkupColumn<'a> = (&'a str, fn(&Row) -> Markup);
 
-/// A table of runs: a cell before and cells behind the columns of [`HEAD`].
+/// A table of runs: a cell before and cells behind those of [`COLUMNS`].
 fn table_of_runs<'a>(
     rows: impl IntoIterator<Item = &'a Row>,
     first: (&str, impl Fn(&Row) -> String),
@@ -85,29 +90,13 @@ fn table_of_runs<'a>(
 ) -> Markup {
     let line = |row: &Row| {
         let mut cells = vec![html! { (first.1(row)) }];
-        cells.extend(cells_of(row).map(|cell| html! { (cell) }));
+        cells.extend(COLUMNS.iter().map(|(_, cell)| html! { (cell(row)) }));
         cells.extend(last.map(|(_, cell)| cell(row)));
         cells
     };
-    let head: Vec<&str> = std::iter::once(first.0).chain(HEAD).chain(last.map(|(name, _)| name)).collect();
+    let head: Vec<&str> =
+        std::iter::once(first.0).chain(COLUMNS.map(|column| column.0)).chain(last.map(|(name, _)| name)).collect();
     table(&head, &rows.into_iter().map(line).collect::<Vec<_>>())
-}
-
-fn cells_of(row: &Row) -> [String; 11] {
-    let [low, _, high] = row.times.total_s;
-    [
-        row.config.method.clone(),
-        step(row.config.dt),
-        number(competing_error(row)),
-        seconds(row.seconds()),
-        format!("{} – {}", seconds(low), seconds(high)),
-        seconds(row.times.processor_s),
-        seconds(row.times.step_ms[0].map(|ms| ms / 1e3)),
-        row.counters.force_assemblies.to_string(),
-        row.counters.newton_iterations.to_string(),
-        row.counters.factorizations.to_string(),
-        row.counters.solver_iterations.to_string(),
-    ]
 }
 
 fn front(study: &SceneStudy) -> Markup {
@@ -119,34 +108,24 @@ fn front(study: &SceneStudy) -> Markup {
 }
 
 fn orders(study: &SceneStudy) -> Markup {
-    let row = |observed: super::Observed| {
-        let of = study.rows.iter().filter(|row| row.config.method == observed.method);
-        let finest = of.clone().filter(|row| row.is_done()).min_by(|a, b| a.config.dt.total_cmp(&b.config.dt));
-        let failed = of.filter(|row| !row.is_done()).count();
-        let error = |value: fn(&Row) -> Option<f64>| number(finest.and_then(value));
-        vec![
-            observed.method,
-            observed.order.map_or("–".to_owned(), |order| order.text()),
-            observed.expected.to_string(),
-            failed.to_string(),
-            finest.map_or("–".to_owned(), |row| step(row.config.dt)),
-            error(|row| row.errors.energy),
-            error(|row| row.errors.momentum),
-            error(|row| row.errors.angular),
-        ]
+    let of =
+        |observed: &Observed| study.rows.iter().filter(|row| row.config.method == observed.method).collect::<Vec<_>>();
+    let finest = |observed: &Observed| {
+        let done = of(observed).into_iter().filter(|row| row.is_done());
+        done.min_by(|a, b| a.config.dt.total_cmp(&b.config.dt))
     };
-    let head = [
-        "method",
-        ">order in dt (95 %)",
-        ">theory",
-        ">failed runs",
-        ">finest step",
-        ">energy",
-        ">momentum",
-        ">angular momentum",
+    let columns: [Column<Observed>; 8] = [
+        ("method", &|observed| observed.method.clone()),
+        (">order in dt (95 %)", &|observed| observed.order.map_or("–".to_owned(), |order| order.text())),
+        (">theory", &|observed| observed.expected.to_string()),
+        (">failed runs", &|observed| of(observed).iter().filter(|row| !row.is_done()).count().to_string()),
+        (">finest step", &|observed| finest(observed).map_or("–".to_owned(), |row| step(row.config.dt))),
+        (">energy", &|observed| number(finest(observed).and_then(|row| row.errors.energy))),
+        (">momentum", &|observed| number(finest(observed).and_then(|row| row.errors.momentum))),
+        (">angular momentum", &|observed| number(finest(observed).and_then(|row| row.errors.angular))),
     ];
     html! {
-        (table(&head, &orders_in_time(study).into_iter().map(row).collect::<Vec<_>>()))
+        (Table::of("orders", &orders_in_time(study), &columns).html())
         p class="soft" {
             "Energy and momenta: relative distance of the finest run from the reference at the end. Orders are fitted to the four finest runs. \
              High frequencies hide the order until the time step resolves them."

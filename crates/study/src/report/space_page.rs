@@ -4,31 +4,29 @@ use fem_chart::page::{figure, table};
 use maud::{Markup, html};
 
 use super::text::number;
-use super::{Report, charts, orders_in_time, space_charts};
+use super::{Observed, Report, charts, orders_in_time, space_charts};
 use crate::runs::convergence_order::ConvergenceOrder;
 use crate::space::locking::RATIOS;
 use crate::space::manufactured;
 use crate::studies::space::{SpaceOrders, SpaceStudy};
+use crate::study::{Column, Table};
 
 /// Convergence orders in time on the small body.
 pub(super) fn orders(report: &Report) -> Markup {
     let study = &report.orders;
-    let row = |observed: super::Observed| {
-        let is_met = observed.order.is_some_and(|order| (order.value - observed.expected).abs() <= 0.1);
-        vec![
-            observed.method,
-            text(observed.order),
-            observed.expected.to_string(),
-            if is_met { "within 0.1" } else { "not within 0.1" }.to_owned(),
-        ]
-    };
-    let rows: Vec<_> = orders_in_time(study).into_iter().map(row).collect();
+    let is_met = |of: &Observed| of.order.is_some_and(|order| (order.value - of.expected).abs() <= 0.1);
+    let columns: [Column<Observed>; 4] = [
+        ("method", &|of| of.method.clone()),
+        (">order (95 %)", &|of| text(of.order)),
+        (">theory", &|of| of.expected.to_string()),
+        ("", &|of| if is_met(of) { "within 0.1" } else { "not within 0.1" }.to_owned()),
+    ];
     html! {
         h2 id="orders" { "Convergence orders in time" }
         p class="soft" { (study.about) ": " (study.size.0) " nodes." }
         div class="charts" {
             (figure(&charts::convergence(study), "Errors at the end against the reference in time."))
-            div { (table(&["method", ">order (95 %)", ">theory", ""], &rows)) }
+            div { (Table::of("orders", &orders_in_time(study), &columns).html()) }
         } "\n"
     }
 }
@@ -39,12 +37,16 @@ fn text(order: Option<ConvergenceOrder>) -> String {
 
 /// The manufactured solution, and locking.
 pub(super) fn space(study: &SpaceStudy) -> Markup {
-    let row = |orders: &SpaceOrders| {
-        let [l2, h1] = orders.observed.map(text);
-        let [in_l2, in_h1] = manufactured::orders(orders.element);
-        vec![orders.scene.clone(), manufactured::label(orders.element), l2, h1, format!("{in_l2} and {in_h1}")]
-    };
-    let rows: Vec<_> = study.orders.iter().map(row).collect();
+    let columns: [Column<SpaceOrders>; 5] = [
+        ("scene", &|of| of.scene.clone()),
+        ("elements", &|of| manufactured::label(of.element)),
+        (">order in L2", &|of| text(of.observed[0])),
+        (">order in H1", &|of| text(of.observed[1])),
+        (">theory", &|of| {
+            let [in_l2, in_h1] = manufactured::orders(of.element);
+            format!("{in_l2} and {in_h1}")
+        }),
+    ];
     html! {
         h2 id="space" { "Errors in space" }
         p {
@@ -54,7 +56,7 @@ pub(super) fn space(study: &SpaceStudy) -> Markup {
         div class="charts" {
             (figure(&space_charts::in_space(study), "Relative errors, by quadrature of degree 7."))
             (figure(&space_charts::time_in_plane(study), "Linear and quadratic triangles: error in H1 over the wall-clock time of the solution."))
-            div { (table(&["scene", "elements", ">order in L2", ">order in H1", ">theory"], &rows)) }
+            div { (Table::of("space", &study.orders, &columns).html()) }
         } "\n"
         (locking(study))
     }

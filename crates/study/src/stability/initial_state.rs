@@ -67,3 +67,18 @@ pub fn distance_from_rest(simulation: &Simulator<f64>) -> f64 {
     let u = simulation.state().u.iter().map(|u| Vector3::from(*u).norm());
     u.fold(0.0, f64::max) / simulation.system().length
 }
+
+/// Position of a node from its undeformed one.
+pub type Tangle = fn(&mut Random, &Vector3<f64>) -> Vector3<f64>;
+
+/// Initial positions about the centre of a box of 2 × 1 × 1 m.
+pub const TANGLES: [(&str, Tangle); 5] = [
+    ("random positions", |random, _| CENTRE + Vector3::new(1.0, 0.5, 0.5).component_mul(&random.vector())),
+    ("reflected", |_, X| Vector3::new(X.x, 1.0 - X.y, X.z)),
+    ("flattened to a plane", |random, X| Vector3::new(X.x, X.y, 0.5) + 1e-3 * random.vector()),
+    ("squashed to 2 % of its height", |random, X| Vector3::new(X.x, X.y, 0.02 * X.z) + 1e-3 * random.vector()),
+    ("collapsed to a point", |random, _| CENTRE + 1e-3 * random.vector()),
+];
+
+/// The centre of that box.
+pub const CENTRE: Vector3<f64> = Vector3::new(1.0, 0.5, 0.5);

@@ -6,9 +6,8 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::case::{CaseRow, Map};
-use crate::csv_table::csv_text;
 use crate::machine::Machine;
-use crate::study::{Finished, Found};
+use crate::study::{Column, Finished, Found, Table};
 
 /// The results of a study.
 #[derive(Clone, Debug, Serialize)]
@@ -76,42 +75,21 @@ impl Results {
 
     /// `stability.csv`: a head and a line for each row.
     pub fn csv(&self) -> Result<String, csv::Error> {
-        csv_text(&COLUMNS, self.rows.iter().map(cells))
+        let columns: [Column<CaseRow>; 12] = [
+            ("family", &|row| row.family.clone()),
+            ("case", &|row| row.case.clone()),
+            ("parameters", &|row| row.parameters.clone()),
+            ("integrator", &|row| row.integrator.clone()),
+            ("material", &|row| row.material.clone()),
+            ("seed", &|row| row.seed.map_or(String::new(), |seed| seed.to_string())),
+            ("expected", &|row| row.expected.to_string()),
+            ("outcome", &|row| row.outcome.to_string()),
+            // Other machines reproduce four digits.
+            ("margin", &|row| row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"))),
+            ("pass", &|row| row.pass.to_string()),
+            ("margin_is", &|row| row.margin_is.clone()),
+            ("note", &|row| row.note.clone()),
+        ];
+        Table::of("stability", &self.rows, &columns).csv()
     }
-}
-
-const COLUMNS: [&str; 12] = [
-    "family",
-    "case",
-    "parameters",
-    "integrator",
-    "material",
-    "seed",
-    "expected",
-    "outcome",
-    "margin",
-    "pass",
-    "margin_is",
-    "note",
-];
-
-fn cells(row: &CaseRow) -> Vec<String> {
-    let seed = row.seed.map_or(String::new(), |seed| seed.to_string());
-    // Other machines reproduce four digits.
-    let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
-    let cells = [
-        row.family.as_str(),
-        &row.case,
-        &row.parameters,
-        &row.integrator,
-        &row.material,
-        &seed,
-        row.expected.name(),
-        row.outcome.name(),
-        &margin,
-        if row.pass { "true" } else { "false" },
-        &row.margin_is,
-        &row.note,
-    ];
-    cells.map(str::to_owned).to_vec()
 }

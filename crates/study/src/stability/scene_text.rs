@@ -4,6 +4,7 @@ use fem_model::{Body, Family, Integrator};
 use nalgebra::Vector3;
 
 use super::case::{Case, Finding, Outcome, SMALLEST_J};
+use super::march::march;
 use crate::scenes::{scene_and_body, simulator};
 use crate::study::Deadline;
 
@@ -110,6 +111,12 @@ impl SceneText {
             seed: None,
             work: Box::new(move |deadline| work(deadline).unwrap_or_else(|finding| finding)),
         }
+    }
+
+    /// A case that survives a number of steps.
+    pub fn surviving(self, family: &'static str, case: impl Into<String>, parameters: String, steps: usize) -> Case {
+        let text = self.clone();
+        self.case(family, case, parameters, move |deadline| Ok(march(&mut text.build()?, steps, deadline).survival()))
     }
 
     /// The simulation of the scene, at rest.

@@ -22,7 +22,7 @@ use crate::machine::Machine;
 
 pub use journal::arguments;
 pub use output::write;
-pub use page::{Figure, Mark, Page, Part, Table};
+pub use page::{Column, Figure, Mark, Page, Part, Table};
 pub use runner::{Deadline, Run, Stopped, carry_out, guarded, rows};
 pub use shard::Shard;
 

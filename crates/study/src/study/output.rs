@@ -7,16 +7,13 @@ use fem_chart::page::{figure, page, table};
 use maud::{Markup, html};
 
 use super::{Mark, Page, Part};
-use crate::csv_table::csv_text;
 
 /// Writes the page, the tables (`.csv`) and the pictures (`.svg`) into a folder.
 pub fn write(of: &Page, folder: &Path) -> io::Result<()> {
     std::fs::create_dir_all(folder)?;
     for part in &of.parts {
         for table in &part.tables {
-            let head: Vec<&str> = table.head.iter().map(|name| name.trim_start_matches('>')).collect();
-            let text = csv_text(&head, table.rows.iter().cloned())?;
-            std::fs::write(folder.join(format!("{}.csv", table.name)), text)?;
+            std::fs::write(folder.join(format!("{}.csv", table.name)), table.csv()?)?;
         }
         for figure in &part.figures {
             std::fs::write(folder.join(format!("{}.svg", figure.name)), figure.picture.standalone())?;
@@ -54,8 +51,6 @@ fn chapter(part: &Part) -> Markup {
         p { (part.text) } "\n"
         (table(&["mark", "thesis", "here", ""], &part.marks.iter().map(line).collect::<Vec<_>>()))
         div class="charts" { @for shown in &part.figures { (figure(&shown.picture, &shown.caption)) } } "\n"
-        @for numbers in &part.tables {
-            (table(&numbers.head.iter().map(String::as_str).collect::<Vec<_>>(), &numbers.rows))
-        }
+        @for numbers in &part.tables { (numbers.html()) }
     }
 }

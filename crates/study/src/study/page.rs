@@ -1,9 +1,12 @@
 //! Parts of a page: statements that must be true, tables, pictures, with a paragraph about them.
 
+use fem_chart::page::table;
 use fem_chart::{Chart, Picture};
+use maud::Markup;
 use serde::{Deserialize, Serialize};
 
 use super::Finished;
+use crate::csv_table::csv_text;
 use crate::machine::Machine;
 
 /// A statement that must be true of an outcome.
@@ -70,6 +73,17 @@ impl Table {
         let head: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
         let row = |row: &Row| columns.iter().map(|(_, cell)| cell(row)).collect();
         Self::new(name, &head, rows.iter().map(row).collect())
+    }
+
+    /// The text of its file.
+    pub fn csv(&self) -> Result<String, csv::Error> {
+        let head: Vec<&str> = self.head.iter().map(|name| name.trim_start_matches('>')).collect();
+        csv_text(&head, self.rows.iter().cloned())
+    }
+
+    /// The table for a page.
+    pub fn html(&self) -> Markup {
+        table(&self.head.iter().map(String::as_str).collect::<Vec<_>>(), &self.rows)
     }
 }
 

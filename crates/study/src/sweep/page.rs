@@ -4,7 +4,7 @@ use fem_chart::page::{figure, page, table};
 use fem_chart::{Axis, COLOURS, Chart, Dot, Picture, SHAPES, Series};
 use maud::{Markup, html};
 
-use super::{DISTANCE, Quantity, Sweep, SweptRun};
+use super::{Sweep, SweptRun, quantity};
 use crate::csv_table::csv_text;
 use crate::machine::Machine;
 use crate::report::text::{number, seconds};
@@ -82,7 +82,7 @@ pub fn html_page(of: &Sweep, runs: &[SweptRun], machine: &Machine) -> String {
         p class="soft" { (machine.line()) "." } "\n"
         @for key in numeric {
             h2 { (keys[key]) }
-            @for (name, quantity, caption) in charted(of) { (figure(&chart(&keys, key, runs, name, quantity), caption)) }
+            @for (name, quantity, caption) in charted(of) { (figure(&chart(&keys, key, runs, &name, quantity), caption)) }
         }
         h2 { "All runs" }
         (all_runs(of, runs))
@@ -91,18 +91,26 @@ pub fn html_page(of: &Sweep, runs: &[SweptRun], machine: &Machine) -> String {
 }
 
 /// Quantities with their names and captions.
-type Charted = (&'static str, fn(&SweptRun) -> Option<f64>, &'static str);
+type Charted = (String, fn(&SweptRun) -> Option<f64>, &'static str);
 
-/// The quantities that are drawn over a key.
+/// The quantities that are drawn over a key: the measured one first.
 fn charted(of: &Sweep) -> Vec<Charted> {
-    let (_, distance): Quantity = DISTANCE;
-    let has_reference = of.scenes.iter().any(|scene| scene.reference.is_some());
-    let all: [Charted; 3] = [
-        ("largest displacement (m)", |run| run.largest_displacement, "Largest displacement of a node at the end."),
-        ("median time of a step (s)", |run| run.median_step_seconds, "Wall time; other work on the machine enters it."),
-        ("distance from the reference / body length", distance, "Root mean square over the volume, at the end."),
+    let always: [Charted; 2] = [
+        (
+            "largest displacement (m)".to_owned(),
+            |run| run.largest_displacement,
+            "Largest displacement of a node at the end.",
+        ),
+        (
+            "median time of a step (s)".to_owned(),
+            |run| run.median_step_seconds,
+            "Wall time; other work on the machine enters it.",
+        ),
     ];
-    all[..if has_reference { 3 } else { 2 }].to_vec()
+    let measured = of.measure.as_ref().map(|measure| &measure.quantity);
+    let measured = measured.filter(|name| !["largest_displacement", "median_step_seconds"].contains(&name.as_str()));
+    let first = measured.and_then(|name| Some((name.replace('_', " "), quantity(name)?, "The result that is judged.")));
+    first.into_iter().chain(always).collect()
 }
 
 fn number_of(text: &str) -> Option<f64> {
@@ -127,7 +135,8 @@ fn chart(
         let (Some(x), Some(y)) = (number_of(&run.values[key]), quantity(run)) else { continue };
         let others = (0..keys.len()).filter(|&other| other != key);
         let others: Vec<String> = others.map(|other| format!("{} = {}", keys[other], run.values[other])).collect();
-        let line = [std::slice::from_ref(&run.scene), &others].concat().join(", ");
+        let case = Some(run.case.clone()).filter(|case| !case.is_empty());
+        let line = [run.scene.clone()].into_iter().chain(case).chain(others).collect::<Vec<_>>().join(", ");
         let title = format!("{line}\n{} = {}\n{name}: {}", keys[key], run.values[key], number(Some(y)));
         let dot = Dot::new(x, y, title);
         match lines.iter_mut().find(|(found, _)| *found == line) {

@@ -1,9 +1,9 @@
 //! Flat bodies: stiffness against time step, inverted triangles, pictures meshed coarsely and finely, momentum.
 
 use fem_model::Integrator;
-use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
+use super::invariance::in_rigid_motion;
 use super::recovery::MARGIN_IS;
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::initial_state::{Random, place_moving};
@@ -46,9 +46,7 @@ fn sagging(model: &'static str, young: f64, dt: f64, steps: usize) -> Case {
     let weight = gravity([0.0, -0.02 * young / 1e3, 0.0]);
     let text = SceneText { young, dt, ..rectangle(Integrator::ImplicitEuler, model) }.with(CLAMPED).with(&weight);
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, {steps} steps");
-    text.clone().case(FAMILY, "sags under its weight", parameters, move |deadline| {
-        Ok(march(&mut text.build()?, steps, deadline).survival())
-    })
+    text.surviving(FAMILY, "sags under its weight", parameters, steps)
 }
 
 /// Cells per metre and order of the triangles of a rectangle that is meshed anew while it runs.
@@ -99,18 +97,5 @@ fn scrambled(model: &'static str, expected: Outcome, seed: u64) -> Case {
 fn rigid(integrator: Integrator, steps: usize) -> Case {
     let text = SceneText { dt: 1e-3, ..rectangle(integrator, "corotated") };
     let parameters = format!("dt = 1e-3 s, {steps} steps");
-    let case = text.clone().case(FAMILY, "translating and rotating", parameters, move |deadline| {
-        let mut simulation = text.build()?;
-        let (spin, speed) = (Vector3::new(0.0, 0.0, 0.5), Vector3::new(3.0, 2.0, 0.0));
-        place_moving(&mut simulation, |X| (*X, speed + spin.cross(&(X - Vector3::new(1.0, 0.5, 0.0)))));
-        let before = super::invariance::momentum(&simulation);
-        let end = march(&mut simulation, steps, deadline);
-        if let Some(trouble) = end.trouble() {
-            return Err(trouble);
-        }
-        let off = simulation.positions().iter().skip(2).step_by(3).fold(0.0f64, |off, z| off.max(z.abs()));
-        let change = (super::invariance::momentum(&simulation) - before).norm() / (1e-12 * before.norm());
-        Ok(Finding::within(change.max(off / f64::MIN_POSITIVE), end.note()))
-    });
-    Case { margin_is: "relative change of momentum / 1e-12, round-off; must be at most 1", ..case }
+    in_rigid_motion(text, FAMILY, parameters, steps)
 }

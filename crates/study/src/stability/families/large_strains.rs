@@ -105,9 +105,7 @@ fn prescribed(motion: &EndMotion, model: &'static str, integrator: Integrator) -
             false => Outcome::Survives,
         },
         margin_is: if integrator.estimates_error() { IN_WAVES } else { SMALLEST_J },
-        ..text.clone().case(FAMILY, motion.name, parameters, move |deadline| {
-            Ok(march(&mut text.build()?, steps, deadline).survival())
-        })
+        ..text.surviving(FAMILY, motion.name, parameters, steps)
     }
 }
 

@@ -5,10 +5,11 @@ use fem_engine::simulator::Simulator;
 use fem_model::Integrator;
 use nalgebra::Vector3;
 
+use super::invariance::in_rigid_motion;
 use super::stiffness_and_step::{DT, YOUNG};
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
-use crate::stability::initial_state::{Random, place, place_moving};
+use crate::stability::initial_state::{Random, TANGLES, Tangle, place};
 use crate::stability::march::march;
 use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText, dynamic, gravity, prescribed_end};
 use crate::study::Deadline;
@@ -77,20 +78,6 @@ fn weighed(integrator: Integrator, young: f64, dt: f64) -> Case {
     })
 }
 
-/// Position of a node from its undeformed one.
-type Tangle = fn(&mut Random, &Vector3<f64>) -> Vector3<f64>;
-
-/// Initial positions about the centre of the body.
-const TANGLES: [(&str, Tangle); 5] = [
-    ("random positions", |random, _| CENTRE + Vector3::new(1.0, 0.5, 0.5).component_mul(&random.vector())),
-    ("reflected", |_, X| Vector3::new(X.x, 1.0 - X.y, X.z)),
-    ("flattened to a plane", |random, X| Vector3::new(X.x, X.y, 0.5) + 1e-3 * random.vector()),
-    ("squashed to 2 % of its height", |random, X| Vector3::new(X.x, X.y, 0.02 * X.z) + 1e-3 * random.vector()),
-    ("collapsed to a point", |random, _| CENTRE + 1e-3 * random.vector()),
-];
-
-const CENTRE: Vector3<f64> = Vector3::new(1.0, 0.5, 0.5);
-
 /// Steps within which a tangled body must come to rest.
 const STEPS: usize = 600;
 
@@ -141,21 +128,7 @@ fn moved(name: &str, motion: &str, integrator: Integrator) -> Case {
 fn rigid(integrator: Integrator, steps: usize) -> Case {
     let mesh = "rectangle = { size = [2, 1], pattern = \"kuhn\", cells_per_unit = 2 }".to_owned();
     let text = SceneText { dt: 1e-3, mesh, ..SceneText::small(integrator, MODEL) };
-    let case = text.clone().case(FAMILY, "translating and rotating", format!("dt = 1e-3 s, {steps} steps"), {
-        move |deadline| {
-            let mut simulation = text.build()?;
-            let (spin, speed) = (Vector3::new(0.0, 0.0, 0.5), Vector3::new(3.0, 2.0, 0.0));
-            place_moving(&mut simulation, |X| (*X, speed + spin.cross(&(X - Vector3::new(1.0, 0.5, 0.0)))));
-            let before = super::invariance::momentum(&simulation);
-            let end = march(&mut simulation, steps, deadline);
-            if let Some(trouble) = end.trouble() {
-                return Err(trouble);
-            }
-            let change = (super::invariance::momentum(&simulation) - before).norm() / (1e-12 * before.norm());
-            Ok(Finding::within(change, end.note()))
-        }
-    });
-    Case { margin_is: "relative change of momentum / 1e-12, round-off; must be at most 1", ..case }
+    in_rigid_motion(text, FAMILY, format!("dt = 1e-3 s, {steps} steps"), steps)
 }
 
 /// A case whose elements may invert.

@@ -12,7 +12,7 @@ use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::initial_state::{Random, distance_from_rest, place};
+use crate::stability::initial_state::{CENTRE, Random, distance_from_rest, place};
 use crate::stability::march::march;
 use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText};
 use crate::study::Deadline;
@@ -78,9 +78,6 @@ const TANGLES: [(&str, Tangle, Outcome); 5] = [
         Outcome::Recovers,
     ),
 ];
-
-/// Centre of the body.
-const CENTRE: Vector3<f64> = Vector3::new(1.0, 0.5, 0.5);
 
 /// Largest speed of a node of a body at rest, body lengths per second.
 const STILL: f64 = 1e-2;

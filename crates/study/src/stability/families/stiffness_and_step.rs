@@ -2,7 +2,6 @@
 
 use crate::stability::case::{Case, Outcome, SMALLEST_J};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
-use crate::stability::march::march;
 use crate::stability::scene_text::{LAWS, SceneText, dynamic, gravity};
 use crate::stability::theory;
 use fem_model::Integrator;
@@ -86,6 +85,5 @@ fn add_weighed(cases: &mut Vec<Case>, quick: bool) {
 fn weighed(name: &str, text: SceneText, steps: usize) -> Case {
     let case = format!("clamped body, {name} under a weight of E times its cross-section");
     let parameters = format!("E = {:e} Pa, dt = {:e} s, {steps} steps", text.young, text.dt);
-    text.clone()
-        .case(FAMILY, case, parameters, move |deadline| Ok(march(&mut text.build()?, steps, deadline).survival()))
+    text.surviving(FAMILY, case, parameters, steps)
 }

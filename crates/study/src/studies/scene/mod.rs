@@ -2,7 +2,6 @@
 
 mod case;
 mod levels;
-mod mesh;
 mod meshes;
 
 use std::collections::HashMap;
