@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use fem_scene::{Override, Scene, load_with};
-use fem_study::sweep::{self, SweptScene};
+use fem_study::sweep::{self, SweptScene, combinations};
 
 use super::Distribution;
 use crate::course::Course;
@@ -52,9 +52,10 @@ pub fn run(
     distribution: Distribution,
     merged: &[PathBuf],
 ) -> Result<(), End> {
+    let lists: Vec<&[Override]> = sweeps.iter().map(|sweep| &sweep.values[..]).collect();
     let mut scenes = Vec::new();
     for name in names {
-        for values in combinations(sweeps) {
+        for values in combinations(&lists) {
             let scene = load_with(name, &course.data(), &values).map_err(End::unusable)?;
             let values = values.iter().map(|value| value_of(&value.to_string()).to_owned()).collect();
             scenes.push(SweptScene { case: String::new(), scene, values, reference: None, expected: None });
@@ -75,15 +76,6 @@ pub fn run(
         factory: &factory,
     };
     super::end_of(course, &study, &study.out, distribution, merged)
-}
-
-/// Every choice of one value of each key, the last key fastest.
-fn combinations(sweeps: &[Sweep]) -> Vec<Vec<Override>> {
-    sweeps.iter().fold(vec![Vec::new()], |combinations, sweep| {
-        let with =
-            |combination: &Vec<Override>, value: &Override| [&combination[..], std::slice::from_ref(value)].concat();
-        combinations.iter().flat_map(|one| sweep.values.iter().map(move |value| with(one, value))).collect()
-    })
 }
 
 /// The value of `KEY=VALUE`.

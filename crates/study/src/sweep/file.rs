@@ -7,7 +7,7 @@ use fem_scene::{Override, load_with};
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::{DISTANCE, Measure, QUANTITIES, Sweep, SweptScene, quantity};
+use super::{DISTANCE, Measure, QUANTITIES, Sweep, SweptScene, combinations, quantity};
 use crate::runs::measure::Factory;
 
 /// The file.
@@ -83,12 +83,13 @@ pub fn read<'a>(
     let measure = measure(&file).map_err(refuse)?;
     let one = Named { name: String::new(), set: Table::new(), expected: None, quick: true };
     let cases = if file.case.is_empty() { vec![one] } else { file.case.clone() };
+    let lists: Vec<&[Value]> = file.vary.iter().map(|variation| &variation.values[..]).collect();
     let mut scenes = Vec::new();
     for name in &file.scenes {
         let beside = path.parent().unwrap_or(Path::new("")).join(name);
         let name = if beside.is_file() { beside.to_string_lossy().into_owned() } else { name.clone() };
         for case in cases.iter().filter(|case| case.quick || !quick) {
-            for values in combinations(&file.vary) {
+            for values in combinations(&lists) {
                 let varied = file.vary.iter().zip(&values).map(|(variation, value)| (variation.key.as_str(), value));
                 let own: Vec<Override> = overrides(&file.set).chain(overrides(&case.set)).collect();
                 let own: Vec<Override> =
@@ -165,14 +166,6 @@ fn zero(measure: &Measure) -> Option<f64> {
 
 fn overrides(keys: &Table) -> impl Iterator<Item = Override> {
     keys.iter().map(|(key, value)| Override::to(key, value))
-}
-
-/// Every choice of one value of each key, the last key fastest.
-fn combinations(variations: &[Variation]) -> Vec<Vec<Value>> {
-    variations.iter().fold(vec![Vec::new()], |known, variation| {
-        let with = |one: &Vec<Value>, value: &Value| [&one[..], std::slice::from_ref(value)].concat();
-        known.iter().flat_map(|one| variation.values.iter().map(move |value| with(one, value))).collect()
-    })
 }
 
 /// A value as tables show it: a text without its quotes.

@@ -51,7 +51,7 @@ pub struct Measure {
 pub struct Sweep<'a> {
     /// Name of its files, without ending.
     pub name: String,
-    /// Title of the page, and its first paragraph.
+    /// Title of the page.
     pub title: String,
     /// The first paragraph of the page.
     pub about: String,
@@ -72,7 +72,7 @@ pub struct Sweep<'a> {
 /// A run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SweptRun {
-    /// Name of the scene, and of the case.
+    /// Name of the scene.
     pub scene: String,
     /// The name of the case; empty if its values are enough.
     pub case: String,
@@ -249,6 +249,14 @@ impl Sweep<'_> {
         let holds = run.is_done() && found.is_some_and(|found| (found - expected).abs() <= measure.tolerance * scale);
         SweptRun { holds: Some(holds), ..run }
     }
+}
+
+/// Every choice of one value of each list, the last list fastest.
+pub fn combinations<T: Clone>(lists: &[&[T]]) -> Vec<Vec<T>> {
+    lists.iter().fold(vec![Vec::new()], |known, list| {
+        let with = |one: &Vec<T>, value: &T| [&one[..], std::slice::from_ref(value)].concat();
+        known.iter().flat_map(|one| list.iter().map(move |value| with(one, value))).collect()
+    })
 }
 
 fn finite(x: f64) -> Option<f64> {
