@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::SceneStudy;
-use super::meshes::{StudyMesh, cells};
+use super::mesh::{StudyMesh, cells};
 use crate::runs::measure::RunResult;
 use crate::runs::names;
 use crate::runs::plan::PlannedRun;

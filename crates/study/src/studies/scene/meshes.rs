@@ -3,32 +3,16 @@
 use std::collections::HashMap;
 
 use super::case::{configuration, errors, status};
+use super::mesh::{StudyMesh, cells};
 use super::{SceneStudy, Settings};
-use crate::reference::{Equations, Reference, reference};
+use crate::reference::{Equations, reference};
 use crate::runs::costs;
 use crate::runs::measure::RunResult;
 use crate::runs::plan::PlannedRun;
 use crate::runs::row::{Errors, Row};
 use crate::runs::states::{Snapshot, write_reference, write_state};
 use crate::space::norms;
-use fem_model::BodyMesh;
 use fem_scene::Scene;
-
-/// A mesh of the study, with its reference.
-pub(super) struct StudyMesh {
-    pub mesh: BodyMesh,
-    /// Weights of the nodes, m³.
-    pub weights: Vec<f64>,
-    pub hash: String,
-    /// File of the reference.
-    pub file: String,
-    pub reference: Option<Reference>,
-}
-
-/// Cells per metre of a box, 0 for a mesh from a file.
-pub(super) fn cells(scene: &Scene) -> usize {
-    scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit)
-}
 
 /// Largest time of a reference, and of the finest of three nested meshes, s.
 pub(super) fn most_reference_seconds(is_quick: bool) -> f64 {

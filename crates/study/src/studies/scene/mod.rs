@@ -2,6 +2,7 @@
 
 mod case;
 mod levels;
+mod mesh;
 mod meshes;
 
 use std::collections::HashMap;
