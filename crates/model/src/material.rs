@@ -177,7 +177,7 @@ pub enum Volumetric {
     /// At each quadrature point. As Poisson's ratio approaches ½, elements lock: linear ones most, quadratic ones a little.
     #[default]
     Standard,
-    /// At the mean of J = det F over a quadratic element, or over a patch of about four linear triangles or eight tetrahedra: they lock far less. For the laws `linear`,
+    /// At the mean of J = det F over a quadratic element, or over a patch of about eight linear ones: they lock far less. For the laws `linear`,
     /// `neo_hookean`, `hencky`, `mooney_rivlin`, `yeoh` and `gent`; not in plane stress. Engine only.
     Averaged,
 }

@@ -185,7 +185,7 @@ fn cantilever(order: usize, cells: usize, poisson: f64, volumetric: &str) -> f64
 #[test]
 fn a_nearly_incompressible_cantilever_no_longer_locks() {
     let [locked, freed] = ["standard", "averaged"].map(|volumetric| cantilever(1, 3, 0.4999, volumetric));
-    assert!(locked < 0.03 && freed > 0.75, "{locked} {freed}");
+    assert!(locked < 0.03 && freed > 0.72, "{locked} {freed}");
     let [standard, freed] = ["standard", "averaged"].map(|volumetric| cantilever(2, 3, 0.4999, volumetric));
     assert!(standard < 0.96 && (0.98..1.0).contains(&freed), "{standard} {freed}");
     let [less, more] = [0.49, 0.49999].map(|poisson| cantilever(1, 3, poisson, "averaged"));

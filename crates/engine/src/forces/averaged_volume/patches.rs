@@ -4,27 +4,26 @@ use std::collections::HashMap;
 
 use fem_model::BodyMesh;
 
-/// Linear elements in a patch, by the dimension of the mesh: fewer lock, more are too soft. Cook's membrane in the plane and a cantilever in space, κ/μ =
-/// 5000, decide.
-const SIZES: [usize; 2] = [4, 8];
+/// Linear elements in a patch: fewer lock, more are too soft. Cook's membrane and a cantilever, κ/μ = 5000, decide.
+const SIZE: usize = 8;
 
-/// Groups elements of a mesh: quadratic ones alone, linear ones by about [`SIZES`]. A patch grows by the neighbour that shares most nodes with it, so
+/// Groups elements of a mesh: quadratic ones alone, linear ones by about [`SIZE`]. A patch grows by the neighbour that shares most nodes with it, so
 /// that it is compact; what is left over joins the smallest patch beside it.
 pub fn patches(mesh: &BodyMesh, elements: &[usize]) -> Vec<Vec<usize>> {
     if mesh.element().order != 1 {
         return elements.iter().map(|&element| vec![element]).collect();
     }
-    let (neighbours, size) = (neighbours(mesh, elements), SIZES[mesh.dimension() - 2]);
+    let neighbours = neighbours(mesh, elements);
     let mut patch_of: Vec<Option<usize>> = vec![None; elements.len()];
     let mut patches: Vec<Vec<usize>> = Vec::new();
     for seed in 0..elements.len() {
         if patch_of[seed].is_some() {
             continue;
         }
-        let patch = grown(mesh, elements, &neighbours, &patch_of, (seed, size));
+        let patch = grown(mesh, elements, &neighbours, &patch_of, seed);
         let beside = || patch.iter().flat_map(|&place| &neighbours[place]).filter_map(|&place| patch_of[place]);
         let number = match beside().min_by_key(|&other| (patches[other].len(), other)) {
-            Some(smallest) if patch.len() <= size / 2 => smallest,
+            Some(smallest) if patch.len() <= SIZE / 2 => smallest,
             _ => {
                 patches.push(Vec::new());
                 patches.len() - 1
@@ -42,11 +41,11 @@ fn grown(
     elements: &[usize],
     neighbours: &[Vec<usize>],
     patch_of: &[Option<usize>],
-    (seed, size): (usize, usize),
+    seed: usize,
 ) -> Vec<usize> {
     let mut patch = vec![seed];
     let mut nodes = mesh.corners_of(elements[seed]).to_vec();
-    while patch.len() < size {
+    while patch.len() < SIZE {
         let beside = patch.iter().flat_map(|&place| &neighbours[place]).copied();
         let free = beside.filter(|place| patch_of[*place].is_none() && !patch.contains(place));
         let shared =
