@@ -97,7 +97,9 @@ fn prescribed(motion: &EndMotion, model: &'static str, integrator: Integrator) -
     let text = scene(motion, model, integrator);
     let steps = if integrator == Integrator::Static { motion.steps } else { 2 * motion.steps };
     let parameters = format!("nu = 0.4, E = 1e5 Pa, dt = {} s, {steps} steps", motion.dt);
-    let inverts = model == "stable_neo_hookean" && motion.inverts;
+    // The rod buckles within steps; of the methods that survive, Bathe's damps these waves least.
+    let is_crossed = motion.inverts || is_twist(motion) && integrator == Integrator::Bathe;
+    let inverts = model == "stable_neo_hookean" && is_crossed;
     Case {
         expected: match inverts {
             true => Outcome::Inverts,
