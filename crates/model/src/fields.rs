@@ -1,18 +1,20 @@
-//! Force fields: external forces that depend on the place of each part of a body alone. The table of a scene is the value itself.
+//! Forces on every part of a body, such as force fields. The table of a scene is the value itself.
 
 use nalgebra::Vector3;
 use serde::Deserialize;
 
 use crate::numbers::{check_not_negative, check_positive, check_vector, problem};
-use crate::{BodyMesh, Refusal};
+use crate::{BodyMesh, Refusal, Viscosity};
 
-/// Hands all force fields, each as `table: Struct`, to another macro. Scenes, bodies and the engine read this list.
+/// Hands all of them, each as `table: Struct`, to another macro. Scenes, bodies and the engine read this list.
 #[macro_export]
 macro_rules! force_fields {
     ($callback:ident) => {
         $callback! {
             /// `[central_gravity]`
             central_gravity: CentralGravity,
+            /// `[viscosity]`
+            viscosity: Viscosity,
         }
     };
 }

@@ -44,6 +44,7 @@ mod selector;
 pub mod simulation;
 mod solver;
 mod timer;
+mod viscosity;
 
 pub use axis::Axis;
 pub use batch::{Batch, EnvironmentValues};
@@ -67,3 +68,4 @@ pub use regions::{MaterialRegion, density_factors};
 pub use selector::{Region, Selector, elements, listed, loaded_faces, nodes};
 pub use solver::{Precision, Preconditioner, SolverKind, SolverSettings};
 pub use timer::Timer;
+pub use viscosity::{PronyTerm, Viscosity};

@@ -15,7 +15,7 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 29] = [
+const ORDER: [&str; 30] = [
     "about",
     "pipeline",
     "mesh",
@@ -28,6 +28,7 @@ const ORDER: [&str; 29] = [
     "traction",
     "force",
     "central_gravity",
+    "viscosity",
     "springs",
     "fixed",
     "prescribed",

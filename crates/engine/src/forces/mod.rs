@@ -8,11 +8,14 @@ pub mod drag;
 mod energy;
 mod hessian_kind;
 pub mod mass_spring;
+mod points;
 mod potential;
 pub mod pressure;
 mod spring;
 pub mod springs;
+mod viscoelasticity;
 
+use fem_model::simulation::History;
 use fem_model::{Body, Timer};
 
 use crate::numbering::Numbering;
@@ -21,7 +24,7 @@ pub use energy::Energy;
 use fem_elements::Real;
 use fem_elements::sparse::Pattern;
 pub use hessian_kind::HessianKind;
-pub use potential::{AddBlock, Barrier, Damped, Follower, Lagged, Moment, Potential, Volume};
+pub use potential::{AddBlock, Barrier, Damped, Follower, InElements, Lagged, Moment, Potential, Remembering};
 
 /// A kind of force, which is built if the scene asks for it.
 pub struct Kind<T: Real> {
@@ -37,7 +40,7 @@ pub struct Kind<T: Real> {
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
 /// Every force that a scene can ask for; `[drag]` and the user's interaction are [`DragSprings`].
-pub fn kinds<T: Real>() -> [Kind<T>; 8] {
+pub fn kinds<T: Real>() -> [Kind<T>; 9] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
         Kind {
@@ -49,6 +52,7 @@ pub fn kinds<T: Real>() -> [Kind<T>; 8] {
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
         Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },
         Kind { name: central_gravity::NAME, tables: "[central_gravity]", build: central_gravity::build },
+        Kind { name: viscoelasticity::NAME, tables: "[viscosity]", build: viscoelasticity::build },
         Kind { name: contact::NAME, tables: "[[planes]]", build: contact::build },
         Kind { name: contact::friction::NAME, tables: "[[planes]] with friction", build: contact::friction::build },
     ]
@@ -127,6 +131,17 @@ impl<T: Real> Forces<T> {
     /// Returns true if the body has a follower load.
     pub fn has_followers(&self) -> bool {
         self.active().any(|(potential, _)| !potential.is_conservative())
+    }
+
+    /// Adds the quantities that forces keep from step to step to a history.
+    pub fn save(&self, history: &mut History) {
+        self.all().filter_map(|(force, _)| force.remembering()).for_each(|force| force.save(history));
+    }
+
+    /// Restores the quantities that [`save`](Self::save) has added.
+    pub fn restore(&mut self, history: &History) -> Result<(), String> {
+        let mut forces = self.potentials.iter_mut().filter_map(|(force, _)| force.remembering_mut());
+        forces.try_for_each(|force| force.restore(history))
     }
 
     /// Prepares every force for a step of `dt` seconds from the displacements `u`.

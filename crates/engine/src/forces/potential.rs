@@ -1,6 +1,7 @@
 //! The trait behind which every force stands, and the traits that it can opt into.
 
 use fem_model::LoadCurve;
+use fem_model::simulation::History;
 use nalgebra::Matrix3;
 
 use super::spring::Spring;
@@ -14,7 +15,7 @@ pub type AddBlock<'a, T> = dyn FnMut(usize, usize, Block<T, 3>) + 'a;
 /// A force on the body: minus the gradient of an energy that depends on the displacements and the time.
 ///
 /// A new one gives its value, gradient and Hessian. A method has a default only if that follows from these three, if it costs accuracy or
-/// time at most, or if it says that the potential has no such facet: [`Volume`], [`Barrier`], [`Lagged`], [`Damped`],
+/// time at most, or if it says that the potential has no such facet: [`InElements`], [`Remembering`], [`Barrier`], [`Lagged`], [`Damped`],
 /// [`Follower`].
 ///
 /// Nodes have the engine's numbers ([`Numbering`](crate::numbering::Numbering)). `u` are the displacements of all nodes, m.
@@ -111,8 +112,18 @@ pub trait Potential<T: Real>: Send + Sync {
         &[]
     }
 
-    /// Itself, if it is the energy of the volume of the elements.
-    fn volume(&self) -> Option<&dyn Volume<T>> {
+    /// Itself, if it is a stress within the elements.
+    fn in_elements(&self) -> Option<&dyn InElements<T>> {
+        None
+    }
+
+    /// Itself, if it keeps quantities from step to step.
+    fn remembering(&self) -> Option<&dyn Remembering> {
+        None
+    }
+
+    /// The same as [`remembering`](Self::remembering), to be changed.
+    fn remembering_mut(&mut self) -> Option<&mut dyn Remembering> {
         None
     }
 
@@ -173,10 +184,23 @@ pub trait Damped<T: Real> {
     fn add_damping_matrix(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]);
 }
 
-/// An energy of the volume of elements that is no part of their laws.
-pub trait Volume<T: Real> {
+/// A stress within the elements beside that of their laws.
+pub trait InElements<T: Real> {
+    /// Returns true if its energy is part of the body's own, whose Hessian is part of the stiffness K in Rayleigh's damping. Otherwise its energy
+    /// belongs to a single step, and dissipates some.
+    fn is_elastic(&self) -> bool;
+
     /// Adds its Cauchy stresses at the quadrature points, Pa: those of the mesh's first element, then those of the next.
-    fn add_stresses(&self, u: &[[T; 3]], stresses: &mut [Matrix3<f64>]);
+    fn add_stresses(&self, u: &[[T; 3]], moment: Moment, stresses: &mut [Matrix3<f64>]);
+}
+
+/// A force that keeps quantities from step to step: checkpoints hold them.
+pub trait Remembering {
+    /// Adds them to a history.
+    fn save(&self, history: &mut History);
+
+    /// Restores the quantities that [`save`](Self::save) has added.
+    fn restore(&mut self, history: &History) -> Result<(), String>;
 }
 
 /// A follower load: a force that turns with the body and need not have an energy. Implicit methods keep it fixed while Newton's method
@@ -193,7 +217,7 @@ pub trait Follower<T: Real> {
 impl<T: Real> dyn Potential<T> + '_ {
     /// Returns true for a force that is part of the body's own elasticity: of springs between its nodes, or of the volume of its elements.
     pub fn is_internal(&self) -> bool {
-        !self.springs().is_empty() || self.volume().is_some()
+        !self.springs().is_empty() || self.in_elements().is_some_and(|stress| stress.is_elastic())
     }
 
     /// Returns true for the forces of obstacles, which are evaluated at the end of a step: barriers, and friction on them.
@@ -203,7 +227,12 @@ impl<T: Real> dyn Potential<T> + '_ {
 
     /// Returns true if the energy of the body does not contain that of the force, which belongs to a single step.
     pub fn is_dissipative(&self) -> bool {
-        self.lagged().is_some()
+        self.lagged().is_some() || self.is_relaxing()
+    }
+
+    /// Returns true for a stress within the elements that relaxes.
+    pub fn is_relaxing(&self) -> bool {
+        self.in_elements().is_some_and(|stress| !stress.is_elastic())
     }
 
     /// Returns true if the whole force is minus the gradient of its energy.

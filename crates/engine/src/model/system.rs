@@ -272,16 +272,16 @@ impl<T: Real> System<T> {
     }
 
     /// Cauchy stress of each element of the mesh, Pa: the mean of its quadrature points.
-    pub fn stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
+    pub fn stresses(&self, u: &[[T; 3]], moment: Moment) -> Vec<Matrix3<f64>> {
         let mean = |points: &[Matrix3<f64>]| points.iter().sum::<Matrix3<f64>>() / points.len() as f64;
-        self.stresses_at_points(u).chunks_exact(self.elements.points_per_element()).map(mean).collect()
+        self.stresses_at_points(u, moment).chunks_exact(self.elements.points_per_element()).map(mean).collect()
     }
 
     /// Cauchy stress at each quadrature point, Pa: those of the mesh's first element, then those of the next.
-    pub fn stresses_at_points(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
+    pub fn stresses_at_points(&self, u: &[[T; 3]], moment: Moment) -> Vec<Matrix3<f64>> {
         let mut stresses = self.elements.cauchy_stresses_at_points(u);
-        for volume in self.forces.all().filter_map(|(force, _)| force.volume()) {
-            volume.add_stresses(u, &mut stresses);
+        for force in self.forces.all().filter_map(|(force, _)| force.in_elements()) {
+            force.add_stresses(u, moment, &mut stresses);
         }
         stresses
     }

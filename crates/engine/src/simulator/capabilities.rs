@@ -1,7 +1,9 @@
 //! Bodies and forces that a method or a solver cannot take: one table of what is asked, the quantity that asks for it, and the problem with
 //! its remedy.
 
-use fem_model::{Body, ContactTreatment, Integrator as IntegratorKind, Method, Motion, Refusal, SolverKind};
+use fem_model::{
+    Body, ContactTreatment, Integrator as IntegratorKind, Method, Motion, PlaneState, Refusal, SolverKind,
+};
 use nalgebra::Vector3;
 
 use crate::forces::{Potential, dead_load, drag, springs};
@@ -50,6 +52,16 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
             format!("is \"averaged\", which time.integrator = \"{name}\" does not know; remove it, or use implicit_euler"),
         ),
         (
+            !body.fields.viscosity.is_empty() && (body.plasticity.is_some() || body.material.is_mass_spring()),
+            "viscosity",
+            "is a table for elastic elements; remove it, or [plasticity] or the springs".to_owned(),
+        ),
+        (
+            !body.fields.viscosity.is_empty() && body.material.plane == PlaneState::Stress,
+            "viscosity",
+            "is not known in plane stress; write material.plane = \"strain\", or remove it".to_owned(),
+        ),
+        (
             follows && moved.is_some(),
             "static.arc_length",
             format!(
@@ -92,9 +104,9 @@ pub(super) fn check_force<T: Real>(method: &Method, force: &dyn Potential<T>) ->
                 .to_owned(),
         ),
         (
-            method.integrator == IntegratorKind::ProjectiveDynamics && is_follower,
+            method.integrator == IntegratorKind::ProjectiveDynamics && (is_follower || force.is_relaxing()),
             "time.integrator",
-            format!("is \"{name}\", which does not know follower loads; use implicit_euler"),
+            format!("is \"{name}\", which does not know the force `{}`; use implicit_euler", force.name()),
         ),
         (
             method.integrator.needs_node_masses() && !OF_NODES.contains(&force.name()),

@@ -19,6 +19,7 @@ pub(super) fn of<T: Compiled>(simulator: &Simulator<T>) -> Checkpoint {
     if let Some(plasticity) = simulator.system.elements.plasticity() {
         plasticity.save(&mut history);
     }
+    simulator.system.forces.save(&mut history);
     simulator.ledger.save(&mut history);
     simulator.last_forces.save(&mut history);
     if let Some(contact) = &simulator.contact {
@@ -80,6 +81,7 @@ pub(super) fn restore<T: Compiled>(simulator: &mut Simulator<T>, checkpoint: &Ch
         contact.restore(history, &mut simulator.system, simulator.substep_dt)?;
         contact.begin_step(&simulator.last_good.u);
     }
+    simulator.system.forces.restore(history)?;
     // Forces of a step, such as friction, show in reports until the next one.
     let (before, forces) = (&simulator.last_good, &mut simulator.system.forces);
     forces.begin_step(&before.u, Moment::at(before.time), simulator.substep_dt);

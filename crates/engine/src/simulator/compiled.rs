@@ -8,6 +8,7 @@ use fem_model::{Body, Method, Refusal};
 use nalgebra::Matrix3;
 
 use super::Simulator;
+use crate::forces::Moment;
 use crate::integrators::critical_time_step;
 use crate::model::system::OwnForces;
 use fem_elements::Real;
@@ -78,11 +79,11 @@ macro_rules! compiled {
             }
 
             fn stresses(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>> {
-                simulator.system.stresses(&simulator.state.u)
+                simulator.system.stresses(&simulator.state.u, Moment::at(simulator.state.time))
             }
 
             fn stresses_at_points(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>> {
-                simulator.system.stresses_at_points(&simulator.state.u)
+                simulator.system.stresses_at_points(&simulator.state.u, Moment::at(simulator.state.time))
             }
 
             fn critical_time_step(simulator: &Simulator<Self>) -> Option<f64> {

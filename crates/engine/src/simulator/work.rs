@@ -1,5 +1,5 @@
 //! Works in one step that depend on the path: of loads that change or follow the body, of prescribed motions and of moving obstacles, and
-//! the energy that damping and friction dissipate.
+//! the energy that damping, stresses that relax, and friction dissipate; those of a stress that relaxes contain what its springs store.
 //!
 //! Methods of first order take all forces at the end of a step, so their works are F₁ · Δu: then implicit Euler only loses energy. The
 //! others take the mean of the forces at start and end, or those at their stage, which is exact for the trapezoidal and the midpoint
@@ -9,8 +9,8 @@ use std::ops::AddAssign;
 
 use super::Simulator;
 use super::energies::{Bounds, is_changing_load};
-use crate::forces::Moment;
 use crate::forces::contact::friction::tangential;
+use crate::forces::{Moment, Potential};
 use crate::integrators::LastEvaluation;
 use crate::model::reactions::{End, Unbalanced, write_between};
 use crate::model::system::System;
@@ -151,14 +151,26 @@ impl<T: Real> Simulator<T> {
                 None => {}
             }
         }
+        if system.forces.active().any(|(potential, _)| potential.is_relaxing()) {
+            write_difference(&state.u, &before.u, &mut room.change);
+            let mut against = |u: &[[T; 3]], time: f64| {
+                forces_of(system, |potential| potential.is_relaxing(), (u, Moment::at(time)), &mut room.other);
+                -dot(&room.other, &room.change)
+            };
+            let at_end = against(&state.u, before.time + dt);
+            work.dampers += match takes_forces_at_end(*kind) {
+                true => at_end,
+                false => 0.5 * (at_end + against(&before.u, before.time)),
+            };
+        }
         if system.forces.active().any(|(potential, _)| is_changing_load(potential)) {
-            forces_of_loads(system, &state.u, Moment::at(before.time + dt), &mut last.loads);
+            forces_of(system, is_changing_load, (&state.u, Moment::at(before.time + dt)), &mut last.loads);
             write_difference(&state.u, &before.u, &mut room.change);
             work.loads = dot(&last.loads, &room.change);
             if !takes_forces_at_end(*kind) {
                 let at_start = match last_forces.loads.is_empty() {
                     true => {
-                        forces_of_loads(system, &before.u, Moment::at(before.time), &mut room.other);
+                        forces_of(system, is_changing_load, (&before.u, Moment::at(before.time)), &mut room.other);
                         &room.other
                     }
                     false => &last_forces.loads,
@@ -239,10 +251,15 @@ fn takes_forces_at_end(kind: IntegratorKind) -> bool {
     !kind.is_explicit() && !kind.estimates_error()
 }
 
-/// Writes the forces of the loads whose work depends on the path, N.
-fn forces_of_loads<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment, force: &mut Vec<[T; 3]>) {
+/// Writes the sum of some forces at displacements and a moment, N.
+fn forces_of<T: Real>(
+    system: &System<T>,
+    is_meant: impl Fn(&dyn Potential<T>) -> bool,
+    (u, moment): (&[[T; 3]], Moment),
+    force: &mut Vec<[T; 3]>,
+) {
     set_zero(force, u.len());
-    for (potential, _) in system.forces.active().filter(|(potential, _)| is_changing_load(*potential)) {
+    for (potential, _) in system.forces.active().filter(|(potential, _)| is_meant(*potential)) {
         potential.subtract_force(u, moment, force);
     }
     scale(-1.0, force);

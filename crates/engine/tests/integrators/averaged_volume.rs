@@ -128,7 +128,8 @@ fn projected_stiffness_has_no_negative_energy_where_the_exact_one_has() {
 
 #[test]
 fn a_free_body_has_no_motion_without_energy_but_rigid_ones() {
-    for text in with_elements(&averaged(&soft("static", 1.0, "")).replace("size = [2, 1, 1]", "size = [1, 1, 1]")) {
+    for text in with_elements(&averaged(&soft("static", 1.0, ""))) {
+        let text = text.replace("[2, 1, 1]", "[1, 1, 1]");
         let text = text.replace("[2, 1]", "[1, 1]").replace("cells_per_unit = 3", "cells_per_unit = 1");
         let system = system(&text);
         let (nodes, dimension) = (system.nodes(), system.shape.mesh.dimension());

@@ -32,6 +32,7 @@ mod plasticity;
 mod position_based;
 mod precision;
 mod pressures;
+mod prony;
 mod quadratic;
 mod quadratic_motion;
 mod quadratic_solids;

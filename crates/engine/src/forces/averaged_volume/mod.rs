@@ -15,10 +15,11 @@ mod patches;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use fem_model::{Body, BodyMesh, Material, VolumeEnergy};
+use fem_model::{Body, Material, VolumeEnergy};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::{AddBlock, Energy, HessianKind, Moment, Potential, Volume};
+use super::points::shape_gradients;
+use super::{AddBlock, Energy, HessianKind, InElements, Moment, Potential};
 use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
@@ -126,14 +127,12 @@ impl AveragedVolume {
         let (first_point, first_node) = (self.points.len(), self.nodes.len());
         let points = mesh.element().points;
         for &element in of {
-            let corners = corner_gradients(mesh, element);
-            for (k, L) in points.iter().enumerate() {
+            for (k, gradients) in shape_gradients(mesh, element).enumerate() {
                 let volume = volumes[element] / points.len() as f64;
                 self.points.push(Point { number: element * points.len() + k, volume });
-                let gradients = mesh.element().gradients(&corners, L);
                 self.terms.extend(mesh.nodes_of(element).iter().zip(gradients).map(|(&node, gradient)| {
                     let place = nodes.partition_point(|&other| other < numbering.engine_node[node]);
-                    Term { place, gradient: gradient.into() }
+                    Term { place, gradient }
                 }));
             }
         }
@@ -359,30 +358,23 @@ impl<T: Real> Potential<T> for AveragedVolume {
         Some([0.0; 3])
     }
 
-    fn volume(&self) -> Option<&dyn Volume<T>> {
+    fn in_elements(&self) -> Option<&dyn InElements<T>> {
         Some(self)
     }
 }
 
-impl<T: Real> Volume<T> for AveragedVolume {
-    fn add_stresses(&self, u: &[[T; 3]], stresses: &mut [Matrix3<f64>]) {
+impl<T: Real> InElements<T> for AveragedVolume {
+    fn is_elastic(&self) -> bool {
+        true
+    }
+
+    fn add_stresses(&self, u: &[[T; 3]], _: Moment, stresses: &mut [Matrix3<f64>]) {
         self.for_each(u, |patch, mean| {
             for point in &self.points[patch.points.clone()] {
                 stresses[point.number] += Matrix3::from_diagonal_element(mean.pressure);
             }
         });
     }
-}
-
-/// The gradients of the barycentric coordinates of an element, 1/m; those of a triangle lie in the plane.
-fn corner_gradients(mesh: &BodyMesh, element: usize) -> [[f64; 3]; 4] {
-    let (corners, x) = (mesh.corners_of(element), mesh.vertices());
-    let edge = |k: usize| corners.get(k).map_or(Vector3::z(), |&corner| x[corner] - x[corners[0]]);
-    // A checked mesh has no element without volume.
-    let inverse = Matrix3::from_columns(&[edge(1), edge(2), edge(3)]).try_inverse().unwrap_or_default();
-    let mut rows = [0, 1, 2].map(|k| inverse.row(k).transpose());
-    rows[corners.len() - 1..].fill(Vector3::zeros());
-    [-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]].map(<[f64; 3]>::from)
 }
 
 /// cof F = ∂J/∂F

@@ -71,6 +71,7 @@ impl Source {
                 "model/src/method",
                 "model/src/selector",
                 "model/src/solver",
+                "model/src/viscosity",
                 "mesh/src/sides",
                 "mesh/src/pattern",
             ]
