@@ -1,10 +1,10 @@
-//! The subcommand `experiment`: the experiments of theses, beside their figures.
+//! The subcommand `experiment`: experiments of theses and published cases, beside their figures.
 
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Subcommand};
-use fem_study::experiments::{Experiments, flat, rtfem};
+use fem_study::experiments::{Experiments, benchmarks, flat, rtfem};
 
 use super::Distribution;
 use crate::course::Course;
@@ -22,6 +22,17 @@ enum Experiment {
     Flat(Flat),
     /// Finite elements in real time: a squashed torus, its speed, precision, equilibrium, materials and other bodies
     Rtfem(Rtfem),
+    /// Published benchmarks: NAFEMS, MacNeal and Harder, Cook, Turek and Hron
+    Benchmarks(Benchmarks),
+}
+
+#[derive(Debug, Args)]
+struct Benchmarks {
+    /// One case; all of them without it
+    #[arg(value_parser = PossibleValuesParser::new(benchmarks::BENCHMARKS.parts()))]
+    part: Option<String>,
+    #[command(flatten)]
+    options: Options,
 }
 
 #[derive(Debug, Args)]
@@ -56,11 +67,12 @@ struct Options {
 
 /// Runs the experiment and writes its files. A mark that does not hold is an error.
 pub fn run(course: &Course, arguments: &Arguments, merged: &[PathBuf]) -> Result<(), End> {
-    let (thesis, part, options) = match &arguments.experiment {
+    let (of, part, options) = match &arguments.experiment {
         Experiment::Flat(Flat { part, options }) => (&flat::THESIS, part, options),
         Experiment::Rtfem(Rtfem { part, options }) => (&rtfem::THESIS, part, options),
+        Experiment::Benchmarks(Benchmarks { part, options }) => (&benchmarks::BENCHMARKS, part, options),
     };
-    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(format!("experiment-{}", thesis.name)));
-    let study = Experiments { thesis, part: part.as_deref(), data: &course.data(), quick: options.quick };
+    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(format!("experiment-{}", of.name)));
+    let study = Experiments { of, part: part.as_deref(), data: &course.data(), quick: options.quick };
     super::end_of(course, &study, &out, options.distribution, merged)
 }

@@ -104,7 +104,12 @@ pub(super) fn check_force<T: Real>(method: &Method, force: &dyn Potential<T>) ->
                 .to_owned(),
         ),
         (
-            method.integrator == IntegratorKind::ProjectiveDynamics && (is_follower || force.is_relaxing()),
+            method.integrator == IntegratorKind::ProjectiveDynamics && is_follower,
+            "time.integrator",
+            format!("is \"{name}\", which does not know follower loads; use implicit_euler"),
+        ),
+        (
+            method.integrator == IntegratorKind::ProjectiveDynamics && force.is_relaxing(),
             "time.integrator",
             format!("is \"{name}\", which does not know the force `{}`; use implicit_euler", force.name()),
         ),

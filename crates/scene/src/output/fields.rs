@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::{Matrix3, Vector3};
 
 use super::StressError;
-use super::recovery::stresses_at_nodes;
+use super::recovery;
 use fem_mesh::MeshError;
 use fem_mesh::write::{Field, write_vtu};
 use fem_model::BodyMesh;
@@ -21,7 +21,7 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
     let force = simulation.nodal_forces();
     let contact = simulation.contact_forces();
     let stresses = simulation.stresses();
-    let recovered = recovered(simulation, &shape.mesh);
+    let recovered = entries(&stresses_at_nodes(simulation));
     let averaged = entries(&averages_at_nodes(&shape.mesh, &stresses));
     let gradients = displacement_gradients(&shape.mesh, &displacement);
     let strain = entries(&gradients.iter().map(green_lagrange_strain).collect::<Vec<_>>());
@@ -74,12 +74,13 @@ fn entries(matrices: &[Matrix3<f64>]) -> Vec<f64> {
     matrices.iter().flat_map(|matrix| matrix.iter().copied()).collect()
 }
 
-/// The recovered stress of each node, Pa; of a mass-spring body none.
-fn recovered(simulation: &dyn Simulation, mesh: &BodyMesh) -> Vec<f64> {
+/// The Cauchy stress of each node now, recovered by patches, Pa; of a mass-spring body none.
+pub fn stresses_at_nodes(simulation: &dyn Simulation) -> Vec<Matrix3<f64>> {
     if !simulation.has_stress() {
         return Vec::new();
     }
-    entries(&stresses_at_nodes(mesh, &simulation.material_of_elements(), &simulation.stresses_at_points()))
+    let mesh = &simulation.shape().mesh;
+    recovery::stresses_at_nodes(mesh, &simulation.material_of_elements(), &simulation.stresses_at_points())
 }
 
 /// The mean over the elements of each node, weighted by their undeformed volumes.

@@ -13,7 +13,7 @@ mod stress_error;
 pub use batch::{EnvironmentEnd, write_batch};
 pub use element_field::ElementField;
 pub use energies::{EnergyRow, write_energies};
-pub use fields::von_mises;
+pub use fields::{stresses_at_nodes, von_mises};
 pub use probe::Probe;
 pub use series::Series;
 pub use state::{ResumeError, resume, write_state};

@@ -1,5 +1,6 @@
-//! Experiments of the theses from which this software descends, repeated beside the figures that they print.
+//! Experiments beside figures of others: those of the theses from which this software descends, and published benchmarks.
 
+pub mod benchmarks;
 pub mod flat;
 mod mistake;
 pub mod rtfem;
@@ -12,8 +13,8 @@ use crate::study::{Case, Finished, Found, Page, Part, Study, write};
 /// A part: its name as an argument of the program, its title, and its run, which takes the folder `data` and whether it is to be short.
 type Entry = (&'static str, &'static str, fn(&Path, bool) -> Result<Part, String>);
 
-/// A thesis.
-pub struct Thesis {
+/// A page of experiments: those of a thesis, or published cases.
+pub struct Collection {
     /// Name of its page, without the ending.
     pub name: &'static str,
     title: &'static str,
@@ -21,17 +22,17 @@ pub struct Thesis {
     parts: &'static [Entry],
 }
 
-impl Thesis {
+impl Collection {
     /// Names of the parts, in their order.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> {
         self.parts.iter().map(|(name, ..)| *name)
     }
 }
 
-/// The experiments of a thesis: one part of them, or all.
+/// Experiments of a page: one part of them, or all.
 pub struct Experiments<'a> {
-    /// The thesis.
-    pub thesis: &'static Thesis,
+    /// The page.
+    pub of: &'static Collection,
     /// The name of the part; `None` for all.
     pub part: Option<&'a str>,
     /// The folder with pictures and meshes.
@@ -44,13 +45,12 @@ impl Study for Experiments<'_> {
     type Row = Part;
 
     fn arguments(&self) -> Vec<String> {
-        let words =
-            ["experiment", self.thesis.name].into_iter().chain(self.part).chain(self.quick.then_some("--quick"));
+        let words = ["experiment", self.of.name].into_iter().chain(self.part).chain(self.quick.then_some("--quick"));
         words.map(str::to_owned).collect()
     }
 
     fn cases(&self) -> Vec<Case<'_, Part>> {
-        let chosen = self.thesis.parts.iter().filter(|(name, ..)| self.part.is_none_or(|part| part == *name));
+        let chosen = self.of.parts.iter().filter(|(name, ..)| self.part.is_none_or(|part| part == *name));
         let case = |&(name, title, run): &Entry| {
             Case::new(name, move || run(self.data, self.quick).unwrap_or_else(Part::failed).titled(name, title))
         };
@@ -58,7 +58,7 @@ impl Study for Experiments<'_> {
     }
 
     fn finish(&self, found: Found<Part>, out: &Path) -> io::Result<Finished> {
-        let &Thesis { name, title, text, .. } = self.thesis;
+        let &Collection { name, title, text, .. } = self.of;
         let page = Page { name, title, text, machine: found.machine, quick: self.quick, parts: found.rows };
         write(&page, out)?;
         let Finished { mut lines, failed } = page.finished();

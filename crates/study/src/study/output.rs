@@ -49,7 +49,7 @@ fn chapter(part: &Part) -> Markup {
     html! {
         h2 { (part.title) }
         p { (part.text) } "\n"
-        (table(&["mark", "thesis", "here", ""], &part.marks.iter().map(line).collect::<Vec<_>>()))
+        (table(&["mark", "source", "here", ""], &part.marks.iter().map(line).collect::<Vec<_>>()))
         div class="charts" { @for shown in &part.figures { (figure(&shown.picture, &shown.caption)) } } "\n"
         @for numbers in &part.tables { (numbers.html()) }
     }

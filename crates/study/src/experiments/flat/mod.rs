@@ -11,10 +11,10 @@ mod plasticity;
 mod speed;
 mod stability;
 
-use super::Thesis;
+use super::Collection;
 
 /// The thesis.
-pub const THESIS: Thesis = Thesis {
+pub const THESIS: Collection = Collection {
     name: "flat",
     title: "Flat bodies",
     text: "Experiments of a thesis on two-dimensional deformation with plasticity (2019), repeated by this engine. Its figures stand beside ours, \

@@ -17,10 +17,10 @@ mod structures;
 mod timing;
 mod torus;
 
-use super::Thesis;
+use super::Collection;
 
 /// The thesis.
-pub const THESIS: Thesis = Thesis {
+pub const THESIS: Collection = Collection {
     name: "rtfem",
     title: "Finite elements in real time",
     text: "The experiment of a thesis on real-time linear finite elements (2018), repeated by this engine, and the comparisons that the thesis announces: \

@@ -1,0 +1,152 @@
+//! A published case: its values on a sequence of meshes, beside the reference.
+
+use std::time::Instant;
+
+use fem_chart::{Axis, Chart, Dot, Series};
+use fem_engine::simulator::build;
+use fem_mesh::{Pattern, box_mesh, rectangle_mesh};
+use fem_model::simulation::Simulation;
+use fem_model::{Body, BodyMesh, Integrator, Method, Motion, Selector};
+use nalgebra::Vector3;
+
+use crate::study::{Mark, Part, Table};
+
+/// A value of a case and its reference.
+pub struct Quantity {
+    /// Its name with the unit.
+    pub name: &'static str,
+    pub reference: f64,
+    /// Largest relative error on the finest mesh.
+    pub tolerance: f64,
+    /// Where the reference comes from.
+    pub source: &'static str,
+}
+
+/// A solution on one mesh.
+pub struct Level {
+    pub nodes: usize,
+    /// The values, in the order of the quantities.
+    pub values: Vec<f64>,
+    /// Of the solution without set-up.
+    pub seconds: f64,
+}
+
+/// A mesh with the place of each node in the box or square that it is mapped from, with edges of 1.
+pub struct Mapped {
+    pub mesh: BodyMesh,
+    pub places: Vec<Vector3<f64>>,
+}
+
+impl Mapped {
+    /// Quadratic triangles, one in each half of so many cells along both edges.
+    pub fn square(cells: [usize; 2], map: impl Fn(f64, f64) -> [f64; 2]) -> Result<Self, String> {
+        let mut mesh =
+            rectangle_mesh(cells.map(|n| n as f64), 1, Pattern::Alternating).map_err(|error| error.to_string())?;
+        let place = |x: &Vector3<f64>| Vector3::new(x.x / cells[0] as f64, x.y / cells[1] as f64, 0.0);
+        mesh.vertices.iter_mut().for_each(|x| *x = place(x));
+        let unit = BodyMesh::flat(mesh.clone(), 1.0);
+        for x in &mut mesh.vertices {
+            let [a, b] = map(x.x, x.y);
+            *x = Vector3::new(a, b, 0.0);
+        }
+        Self::quadratic(unit, BodyMesh::flat(mesh, 1.0))
+    }
+
+    /// Quadratic tetrahedra in so many cells along the three edges.
+    pub fn cube(cells: [usize; 3], map: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Result<Self, String> {
+        let mut mesh = box_mesh(cells.map(|n| n as f64), 1, Pattern::Alternating).map_err(|error| error.to_string())?;
+        let place = |x: &Vector3<f64>| x.component_div(&Vector3::from(cells.map(|n| n as f64)));
+        mesh.vertices.iter_mut().for_each(|x| *x = place(x));
+        let unit = BodyMesh::from(mesh.clone());
+        mesh.vertices.iter_mut().for_each(|x| *x = map(x));
+        Self::quadratic(unit, BodyMesh::from(mesh))
+    }
+
+    fn quadratic(unit: BodyMesh, mesh: BodyMesh) -> Result<Self, String> {
+        let of_order = |mesh: BodyMesh| mesh.of_order(2).ok_or("there is no quadratic element");
+        Ok(Self { places: of_order(unit)?.vertices().to_vec(), mesh: of_order(mesh)? })
+    }
+
+    /// The node whose place is the nearest to a point.
+    pub fn node_at(&self, place: [f64; 3]) -> usize {
+        let distance = |node: &usize| (self.places[*node] - Vector3::from(place)).norm();
+        (0..self.places.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+    }
+}
+
+/// Holds the components of the nodes that `is_held` names by their places.
+pub fn hold(
+    mut body: Body,
+    places: &[Vector3<f64>],
+    is_held: impl Fn(&Vector3<f64>) -> [bool; 3],
+) -> Result<Body, String> {
+    let masks: Vec<[bool; 3]> = places.iter().map(is_held).collect();
+    for bits in 1..8 {
+        let mask = [0, 1, 2].map(|i| bits >> i & 1 == 1);
+        let nodes: Vec<usize> = (0..masks.len()).filter(|&node| masks[node] == mask).collect();
+        if !nodes.is_empty() {
+            let held = body.prescribe(&Selector::Nodes(nodes), mask, Motion::by([0.0; 3]));
+            body = held.map_err(|refusal| refusal.to_string())?;
+        }
+    }
+    Ok(body)
+}
+
+/// Equilibrium in so many load steps, and the time that it took, s.
+pub fn equilibrium(body: Body, load_steps: usize) -> Result<(Box<dyn Simulation>, f64), String> {
+    let method = Method { load_steps, ..Method::new(Integrator::Static, 1.0) };
+    let mut simulation = build(body, &method).map_err(|refusal| refusal.to_string())?;
+    let start = Instant::now();
+    for _ in 0..load_steps {
+        simulation.step().map_err(|failure| failure.to_string())?;
+    }
+    Ok((simulation, start.elapsed().as_secs_f64()))
+}
+
+/// Displacement of a node, m.
+pub fn displacement(simulation: &dyn Simulation, node: usize) -> Vector3<f64> {
+    simulation.positions().fixed_rows::<3>(3 * node) - simulation.shape().mesh.vertices()[node]
+}
+
+/// The part of a case: its levels, with the finest ones left out of a short run.
+pub fn part(
+    (name, text): (&str, &str),
+    quantities: &[Quantity],
+    (meshes, short): (&[usize], usize),
+    quick: bool,
+    solve: impl Fn(usize) -> Result<Level, String>,
+) -> Result<Part, String> {
+    let meshes = if quick { &meshes[..short] } else { meshes };
+    let levels = meshes.iter().map(|&cells| Ok((cells, solve(cells)?))).collect::<Result<Vec<_>, String>>()?;
+    let error = |(_, level): &(usize, Level), k: usize| level.values[k] / quantities[k].reference - 1.0;
+    let marks = quantities.iter().enumerate().map(|(k, of)| {
+        let (value, error) = levels.last().map_or((f64::NAN, f64::NAN), |level| (level.1.values[k], error(level, k)));
+        let statement = format!("{} within {} %", of.name, 100.0 * of.tolerance);
+        let theirs = format!("{} ({})", of.reference, of.source);
+        Mark::new(statement, format!("{value:.5e}, {:+.3} %", 100.0 * error), error.abs() <= of.tolerance)
+            .beside(theirs)
+    });
+    let mut head = vec![">cells", ">nodes"];
+    quantities.iter().for_each(|of| head.extend([of.name, ">error (%)"]));
+    head.push(">solution (ms)");
+    let row = |level: &(usize, Level)| {
+        let mut row = vec![level.0.to_string(), level.1.nodes.to_string()];
+        for k in 0..quantities.len() {
+            row.extend([format!("{:.6e}", level.1.values[k]), format!("{:+.3}", 100.0 * error(level, k))]);
+        }
+        row.push(format!("{:.1}", 1e3 * level.1.seconds));
+        row
+    };
+    let table = Table::new(format!("benchmarks-{name}"), &head, levels.iter().map(row).collect());
+    let about = format!("error of {name} over the number of nodes");
+    let mut chart = Chart::new(&about, Axis::log("nodes"), Axis::log("relative error"));
+    for (k, of) in quantities.iter().enumerate() {
+        let dot = |level: &(usize, Level)| {
+            let error = error(level, k).abs();
+            Dot::new(level.1.nodes as f64, error, format!("{} nodes, error {error:.2e}", level.1.nodes))
+        };
+        chart.series.push(Series::joined(of.name, (k, 0), levels.iter().map(dot)));
+    }
+    let caption = "Relative errors against the reference, of which the last digit is rounded.";
+    Ok(Part::new(text).marks(marks).tables([table]).chart(format!("benchmarks-{name}"), &chart, caption))
+}
