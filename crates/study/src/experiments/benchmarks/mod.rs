@@ -3,7 +3,6 @@
 mod case;
 mod cook;
 mod le1;
-mod le10;
 mod slender;
 mod turek_hron;
 
@@ -21,7 +20,6 @@ pub const BENCHMARKS: Collection = Collection {
         ("cook-strain", "Cook's membrane, plane strain", cook::plane_strain),
         ("cook-incompressible", "Cook's membrane, large strain, nearly incompressible", cook::incompressible),
         ("le1", "NAFEMS LE1: an elliptic membrane", le1::run),
-        ("le10", "NAFEMS LE10: a thick plate", le10::run),
         ("mh-straight", "MacNeal and Harder: a straight beam", slender::straight),
         ("mh-curved", "MacNeal and Harder: a curved beam", slender::curved),
         ("mh-twisted", "MacNeal and Harder: a twisted beam", slender::twisted),
