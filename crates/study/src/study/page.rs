@@ -187,7 +187,7 @@ impl Page<'_> {
     pub fn finished(&self) -> Finished {
         let line = |(part, mark): (&Part, &Mark)| {
             let verdict = if mark.holds == Some(false) { "DOES NOT HOLD" } else { mark.verdict() };
-            let theirs = if mark.theirs.is_empty() { String::new() } else { format!(" (thesis: {})", mark.theirs) };
+            let theirs = if mark.theirs.is_empty() { String::new() } else { format!(" (published: {})", mark.theirs) };
             let separator = if mark.ours.is_empty() { "" } else { ": " };
             format!("{:9} {verdict}: {}{separator}{}{theirs}", part.name, mark.statement, mark.ours)
         };
