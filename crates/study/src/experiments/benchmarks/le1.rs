@@ -16,7 +16,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// A point between the two ellipses: from 0 to 1 across, and along the quarter.
-fn between_ellipses(across: f64, along: f64) -> [f64; 2] {
+pub fn between_ellipses(across: f64, along: f64) -> [f64; 2] {
     let (sin, cos) = (along * std::f64::consts::FRAC_PI_2).sin_cos();
     [(2.0 + 1.25 * across) * cos, (1.0 + 1.75 * across) * sin]
 }
