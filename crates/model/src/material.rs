@@ -170,7 +170,7 @@ pub enum PlaneState {
     Stress,
 }
 
-/// Where the part of the energy that depends on the volume is evaluated.
+/// The evaluation of the part of the energy that depends on the volume.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Volumetric {

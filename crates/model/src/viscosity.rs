@@ -5,8 +5,8 @@ use serde::Deserialize;
 use crate::numbers::{check_positive, problem};
 use crate::{BodyMesh, Refusal};
 
-/// `[viscosity]`: stresses beside those of the law that relax with the time, a Prony series over any law. A strain that is applied suddenly and held has
-/// the stress of the law times 1 + Σ g e^(−t/τ), with the ratio g and the time τ of each term: the law is that of a strain held for ever. Engine only, and not
+/// `[viscosity]`: stresses beside those of the law that relax with the time, a Prony series over any law. A strain that is applied suddenly and then constant has
+/// the stress of the law times 1 + Σ g e^(−t/τ), with the ratio g and the time τ of each term: the law is the response after a long time. Engine only, and not
 /// with `[plasticity]`.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]

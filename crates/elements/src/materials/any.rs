@@ -107,7 +107,7 @@ macro_rules! laws {
                 of_all_lanes.map(|modulus| $crate::number::Float::as_f64(modulus.lane(0)))
             }
 
-            /// What the quadrature points keep of the law where the volume is averaged: Lamé's λ is zero, or stays if it is negative. `None` if the law
+            /// The law at the quadrature points where the volume is averaged: Lamé's λ is zero, or stays if it is negative. `None` if the law
             /// has no energy of the volume alone.
             pub fn without_lambda(&self) -> Option<Self> {
                 let [shear, bulk] = self.moduli();

@@ -50,11 +50,7 @@ pub trait Potential<T: Real>: Send + Sync {
         values: &mut [Block<T, 3>],
     ) {
         self.hessian(u, moment, kind, &mut |row, column, block| match pattern.find(row, column) {
-            Some(place) => {
-                for (value, entry) in values[place].as_flattened_mut().iter_mut().zip(block.as_flattened()) {
-                    *value += factor * *entry;
-                }
-            }
+            Some(place) => add_block(factor, &block, &mut values[place]),
             None => assert!(
                 is_left_out(pattern, row, column),
                 "the force `{}` couples nodes {row} and {column} without a place in the matrix: it must pass their block at u = 0 as well",
@@ -251,6 +247,13 @@ impl<T: Real> dyn Potential<T> + '_ {
         if let Some(follower) = self.follower() {
             follower.add_follower_gradient(u, moment, sum);
         }
+    }
+}
+
+/// Adds `factor` times a block.
+pub(super) fn add_block<T: Real>(factor: T, block: &Block<T, 3>, sum: &mut Block<T, 3>) {
+    for (sum, entry) in sum.as_flattened_mut().iter_mut().zip(block.as_flattened()) {
+        *sum += factor * *entry;
     }
 }
 

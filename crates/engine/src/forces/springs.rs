@@ -3,6 +3,7 @@
 
 use fem_model::Body;
 
+use super::potential::add_block;
 pub use super::spring::Spring;
 use super::{AddBlock, Damped, Energy, HessianKind, Moment, Potential};
 use crate::numbering::Numbering;
@@ -62,12 +63,7 @@ impl<T: Real> Springs<T> {
             let H = block(spring);
             for (&place, sign) in places.iter().zip([factor, factor, -factor, -factor]) {
                 if place != NOT_STORED {
-                    let value = &mut values[place as usize];
-                    for i in 0..3 {
-                        for j in 0..3 {
-                            value[i][j] += sign * H[i][j];
-                        }
-                    }
+                    add_block(sign, &H, &mut values[place as usize]);
                 }
             }
         }

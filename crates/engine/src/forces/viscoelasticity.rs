@@ -2,7 +2,7 @@
 //! Viscoelastic Damage Model (1987); Simo and Hughes, Computational Inelasticity (1998), section 10.3.
 //!
 //! The second Piola–Kirchhoff stress of a term relaxes, h' = g S' − h/τ, with the stress S of the law at rest. Where S is linear in a step of Δt,
-//! h₁ = e^(−a) h₀ + g ĝ (S₁ − S₀) with a = Δt/τ, ĝ = (1 − e^(−a))/a: exact under held strain, whatever the step. So the forces of a step have the
+//! h₁ = e^(−a) h₀ + g ĝ (S₁ − S₀) with a = Δt/τ, ĝ = (1 − e^(−a))/a: exact under constant strain, whatever the step. So the forces of a step have the
 //! potential c ψ(F) + ½ A:(FᵀF − 1) per volume, with c = Σ g ĝ and A = Σ (e^(−a) h₀ − g ĝ S₀), which are fixed in the step. For the law `linear`, the
 //! strain is the small one. A jump of the strain at one time is a sudden one, h₁ = h₀ + g (S₁ − S₀), as is that of a deformed initial state.
 

@@ -31,11 +31,11 @@ fn pull(simulation: &dyn Simulation) -> f64 {
 }
 
 #[test]
-fn a_held_stretch_relaxes_as_the_series_whatever_the_law_the_element_and_the_step() {
+fn a_constant_stretch_relaxes_as_the_series_whatever_the_law_the_element_and_the_step() {
     for model in Law::FACTS.iter().map(|facts| facts.name) {
         for dt in [0.01, 0.7, 40.0] {
-            let held = side("x", "max", 0.3) + &format!("curve = {{ ramp = {dt} }}\n");
-            let text = bar(model, dt, &held);
+            let stretch = side("x", "max", 0.3) + &format!("curve = {{ ramp = {dt} }}\n");
+            let text = bar(model, dt, &stretch);
             for text in [text.clone(), text.replace(" }\n[material]", " }\norder = 2\n[material]")] {
                 let mut elastic = build(&text);
                 run(&mut *elastic, 1);

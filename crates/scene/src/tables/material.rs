@@ -27,7 +27,7 @@ macro_rules! material {
             pub model: String,
             /// Density, kg/m³: mass per undeformed volume; positive.
             pub density: f64,
-            /// Where the energy of the volume is evaluated. Default: `"standard"`.
+            /// Evaluation of the energy of the volume. Default: `"standard"`.
             pub volumetric: Option<Volumetric>,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
@@ -52,7 +52,7 @@ macro_rules! material {
             pub thickness: Option<f64>,
             /// State of a flat body across its plane. Engine only. Default: `"strain"`.
             pub plane: Option<PlaneState>,
-            /// Where the energy of the volume is evaluated. Engine only. Default: `"standard"`.
+            /// Evaluation of the energy of the volume. Engine only. Default: `"standard"`.
             pub volumetric: Option<Volumetric>,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }

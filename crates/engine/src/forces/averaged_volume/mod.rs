@@ -19,6 +19,7 @@ use fem_model::{Body, Material, VolumeEnergy};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::points::shape_gradients;
+use super::potential::add_block;
 use super::{AddBlock, Energy, HessianKind, InElements, Moment, Potential};
 use crate::numbering::Numbering;
 use fem_elements::Real;
@@ -312,9 +313,7 @@ impl<T: Real> Potential<T> for AveragedVolume {
         self.for_each_hessian(u, kind, |_, blocks| {
             for (block, &place) in blocks.iter().zip(places.by_ref()) {
                 if place != NOT_STORED {
-                    let block: Block<T, 3> = of_matrix(block);
-                    let entries = values[place as usize].as_flattened_mut().iter_mut().zip(block.as_flattened());
-                    entries.for_each(|(sum, entry)| *sum += factor * *entry);
+                    add_block(factor, &of_matrix(block), &mut values[place as usize]);
                 }
             }
         });

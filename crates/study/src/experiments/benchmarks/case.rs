@@ -74,19 +74,19 @@ impl Mapped {
     }
 }
 
-/// Holds the components of the nodes that `is_held` names by their places.
-pub fn hold(
+/// Constrains the components of the nodes that `is_constrained` names by their places.
+pub fn constrain(
     mut body: Body,
     places: &[Vector3<f64>],
-    is_held: impl Fn(&Vector3<f64>) -> [bool; 3],
+    is_constrained: impl Fn(&Vector3<f64>) -> [bool; 3],
 ) -> Result<Body, String> {
-    let masks: Vec<[bool; 3]> = places.iter().map(is_held).collect();
+    let masks: Vec<[bool; 3]> = places.iter().map(is_constrained).collect();
     for bits in 1..8 {
         let mask = [0, 1, 2].map(|i| bits >> i & 1 == 1);
         let nodes: Vec<usize> = (0..masks.len()).filter(|&node| masks[node] == mask).collect();
         if !nodes.is_empty() {
-            let held = body.prescribe(&Selector::Nodes(nodes), mask, Motion::by([0.0; 3]));
-            body = held.map_err(|refusal| refusal.to_string())?;
+            let constrained = body.prescribe(&Selector::Nodes(nodes), mask, Motion::by([0.0; 3]));
+            body = constrained.map_err(|refusal| refusal.to_string())?;
         }
     }
     Ok(body)

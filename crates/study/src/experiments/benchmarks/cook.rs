@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fem_model::{Axis, Body, Elastic, Law, Material, NeoHookean, PlaneState, Selector, Volumetric};
 
-use super::case::{Level, Mapped, Quantity, displacement, equilibrium, hold, part};
+use super::case::{Level, Mapped, Quantity, constrain, displacement, equilibrium, part};
 use crate::study::Part;
 
 /// Small strain, E = 1, ν = 1/3.
@@ -56,7 +56,7 @@ fn solve(cells: usize, material: Material, load: f64, load_steps: usize, height:
     let mapped = Mapped::square([cells; 2], |s, t| [48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s)])?;
     let (nodes, node) = (mapped.places.len(), mapped.node_at([1.0, height, 0.0]));
     let body = Body::new(mapped.mesh, material).map_err(|refusal| refusal.to_string())?;
-    let body = hold(body, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?;
+    let body = constrain(body, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?;
     let body =
         body.traction(&Selector::most(Axis::X), [0.0, load / 16.0, 0.0]).map_err(|refusal| refusal.to_string())?;
     let (simulation, seconds) = equilibrium(body, load_steps)?;

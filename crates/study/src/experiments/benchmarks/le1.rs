@@ -5,7 +5,7 @@ use std::path::Path;
 use fem_model::{Body, Elastic, Law, Material, PlaneState, Selector};
 use fem_scene::output::stresses_at_nodes;
 
-use super::case::{Level, Mapped, Quantity, equilibrium, hold, part};
+use super::case::{Level, Mapped, Quantity, constrain, equilibrium, part};
 use crate::study::Part;
 
 /// The stress at the end of the inner ellipse's long axis.
@@ -32,7 +32,7 @@ fn solve(cells: usize) -> Result<Level, String> {
     let material =
         Material { plane: PlaneState::Stress, ..Material::new(Law::Linear(Elastic::new(210e9, 0.3)), 7800.0) };
     let body = Body::new(mapped.mesh, material).map_err(|refusal| refusal.to_string())?;
-    let body = hold(body, &mapped.places, |place| [place.y == 1.0, place.y == 0.0, false])?;
+    let body = constrain(body, &mapped.places, |place| [place.y == 1.0, place.y == 0.0, false])?;
     let corner = |row: usize| nx + (nx + 1) * row;
     let outer = (0..ny).map(|row| [corner(row), corner(row + 1)]).collect();
     let body = body.pressure(&Selector::Edges(outer), -10e6).map_err(|refusal| refusal.to_string())?;

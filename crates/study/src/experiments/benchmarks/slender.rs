@@ -8,7 +8,7 @@ use std::path::Path;
 use fem_model::{Body, Elastic, Law, Material, Selector};
 use nalgebra::{Rotation3, Vector3};
 
-use super::case::{Level, Mapped, Quantity, equilibrium, hold, part};
+use super::case::{Level, Mapped, Quantity, constrain, equilibrium, part};
 use crate::study::Part;
 
 const SOLID: &str = "27-node hexahedra";
@@ -78,7 +78,7 @@ fn bent(
         let end = (0..places.len()).filter(|&node| places[node].x == 1.0).collect();
         let material = Material::new(Law::Linear(Elastic::new(young, poisson)), 1.0);
         let body = Body::new(mesh, material).map_err(|refusal| refusal.to_string())?;
-        let body = hold(body, &places, |place| [place.x == 0.0; 3])?;
+        let body = constrain(body, &places, |place| [place.x == 0.0; 3])?;
         let body =
             body.traction(&Selector::Nodes(end), (force / area).into()).map_err(|refusal| refusal.to_string())?;
         let (simulation, seconds) = equilibrium(body, 1)?;

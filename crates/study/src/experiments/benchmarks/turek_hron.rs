@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fem_model::{Body, Elastic, Law, Material};
 
-use super::case::{Level, Mapped, Quantity, displacement, equilibrium, hold, part};
+use super::case::{Level, Mapped, Quantity, constrain, displacement, equilibrium, part};
 use crate::study::Part;
 
 const SOURCE: &str = "FeatFlow";
@@ -40,7 +40,7 @@ fn solve(cells: usize, shear: f64) -> Result<Level, String> {
     let (nodes, node) = (mapped.places.len(), mapped.node_at([1.0, 0.5, 0.0]));
     let material = Material::new(Law::StVenantKirchhoff(Elastic::new(2.8 * shear, 0.4)), 1000.0);
     let body = Body::new(mapped.mesh, material).map_err(|refusal| refusal.to_string())?;
-    let body = hold(body, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?;
+    let body = constrain(body, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?;
     let body = body.gravity([0.0, -2.0, 0.0]).map_err(|refusal| refusal.to_string())?;
     let (simulation, seconds) = equilibrium(body, 4)?;
     let u = displacement(&*simulation, node);
