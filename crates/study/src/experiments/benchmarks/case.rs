@@ -11,6 +11,9 @@ use nalgebra::Vector3;
 
 use crate::study::{Mark, Part, Table};
 
+/// The source of a reference that is computed here.
+pub const CLOSED_FORM: &str = "closed form";
+
 /// A value of a case and its reference.
 pub struct Quantity {
     /// Its name with the unit.
@@ -108,6 +111,16 @@ pub fn displacement(simulation: &dyn Simulation, node: usize) -> Vector3<f64> {
     simulation.positions().fixed_rows::<3>(3 * node) - simulation.shape().mesh.vertices()[node]
 }
 
+/// A relative error in words.
+fn percent_of(error: f64) -> String {
+    if error.abs() < 1e-6 { format!("{error:+.1e}") } else { format!("{:+.3} %", 100.0 * error) }
+}
+
+/// A relative tolerance in words: in per cent, or as a power of ten where that is far below.
+fn percent(tolerance: f64) -> String {
+    if tolerance < 1e-6 { format!("{tolerance:e}") } else { format!("{} %", 100.0 * tolerance) }
+}
+
 /// The part of a case: its levels, with the finest ones left out of a short run.
 pub fn part(
     (name, text): (&str, &str),
@@ -121,12 +134,11 @@ pub fn part(
     let error = |(_, level): &(usize, Level), k: usize| level.values[k] / quantities[k].reference - 1.0;
     let marks = quantities.iter().enumerate().map(|(k, of)| {
         let (value, error) = levels.last().map_or((f64::NAN, f64::NAN), |level| (level.1.values[k], error(level, k)));
-        let statement = format!("{} within {} %", of.name, 100.0 * of.tolerance);
+        let statement = format!("{} within {}", of.name, percent(of.tolerance));
         let theirs = format!("{} ({})", of.reference, of.source);
-        Mark::new(statement, format!("{value:.5e}, {:+.3} %", 100.0 * error), error.abs() <= of.tolerance)
-            .beside(theirs)
+        Mark::new(statement, format!("{value:.5e}, {}", percent_of(error)), error.abs() <= of.tolerance).beside(theirs)
     });
-    let mut head = vec![">cells", ">nodes"];
+    let mut head = vec![">cells or steps", ">nodes"];
     quantities.iter().for_each(|of| head.extend([of.name, ">error (%)"]));
     head.push(">solution (ms)");
     let row = |level: &(usize, Level)| {

@@ -1,9 +1,10 @@
-//! Published cases with quadratic elements: values of other programs and of closed forms on sequences of meshes.
+//! Published cases, most of them with quadratic elements: values of other programs and of closed forms on sequences of meshes.
 
 mod case;
 mod cook;
 mod le1;
 mod le10;
+mod prony;
 mod slender;
 mod turek_hron;
 
@@ -13,7 +14,7 @@ use super::Collection;
 pub const BENCHMARKS: Collection = Collection {
     name: "benchmarks",
     title: "Published benchmarks",
-    text: "Cases that are published with their values, on sequences of meshes of quadratic elements. A mark judges the finest mesh.",
+    text: "Cases that are published with their values or have a closed form, on sequences of meshes, most of them of quadratic elements. A mark judges the finest mesh.",
     parts: &[
         ("csm1", "Turek and Hron, CSM1: a beam behind a cylinder", turek_hron::csm1),
         ("csm2", "Turek and Hron, CSM2: the same, stiffer", turek_hron::csm2),
@@ -25,6 +26,7 @@ pub const BENCHMARKS: Collection = Collection {
         ("mh-straight", "MacNeal and Harder: a straight beam", slender::straight),
         ("mh-curved", "MacNeal and Harder: a curved beam", slender::curved),
         ("mh-twisted", "MacNeal and Harder: a twisted beam", slender::twisted),
+        ("prony", "A Prony series under sudden and steady strain", prony::run),
     ],
 };
 
