@@ -2,6 +2,7 @@
 
 mod case;
 mod cook;
+mod elastica;
 mod le1;
 mod le10;
 mod prony;
@@ -26,6 +27,7 @@ pub const BENCHMARKS: Collection = Collection {
         ("mh-straight", "MacNeal and Harder: a straight beam", slender::straight),
         ("mh-curved", "MacNeal and Harder: a curved beam", slender::curved),
         ("mh-twisted", "MacNeal and Harder: a twisted beam", slender::twisted),
+        ("elastica", "The elastica: a cantilever under an end force and an end moment", elastica::run),
         ("prony", "A Prony series under sudden and steady strain", prony::run),
     ],
 };
