@@ -5,6 +5,7 @@ mod cook;
 mod elastica;
 mod le1;
 mod le10;
+mod lee;
 mod prony;
 mod slender;
 mod turek_hron;
@@ -28,6 +29,7 @@ pub const BENCHMARKS: Collection = Collection {
         ("mh-curved", "MacNeal and Harder: a curved beam", slender::curved),
         ("mh-twisted", "MacNeal and Harder: a twisted beam", slender::twisted),
         ("elastica", "The elastica: a cantilever under an end force and an end moment", elastica::run),
+        ("lee", "Lee's frame: a snap-through", lee::run),
         ("prony", "A Prony series under sudden and steady strain", prony::run),
     ],
 };
