@@ -3,6 +3,7 @@
 mod case;
 mod cook;
 mod elastica;
+mod frequency;
 mod le1;
 mod le10;
 mod lee;
@@ -30,6 +31,7 @@ pub const BENCHMARKS: Collection = Collection {
         ("mh-twisted", "MacNeal and Harder: a twisted beam", slender::twisted),
         ("elastica", "The elastica: a cantilever under an end force and an end moment", elastica::run),
         ("lee", "Lee's frame: a snap-through", lee::run),
+        ("beam-frequency", "Frequencies of a cantilever", frequency::run),
         ("prony", "A Prony series under sudden and steady strain", prony::run),
     ],
 };
