@@ -4,6 +4,7 @@ mod case;
 mod cook;
 mod elastica;
 mod frequency;
+mod lame;
 mod le1;
 mod le10;
 mod lee;
@@ -32,6 +33,8 @@ pub const BENCHMARKS: Collection = Collection {
         ("elastica", "The elastica: a cantilever under an end force and an end moment", elastica::run),
         ("lee", "Lee's frame: a snap-through", lee::run),
         ("beam-frequency", "Frequencies of a cantilever", frequency::run),
+        ("lame-sphere", "Lamé: a thick sphere under inner pressure", lame::sphere),
+        ("lame-cylinder", "Lamé: a thick cylinder under inner pressure", lame::cylinder),
         ("prony", "A Prony series under sudden and steady strain", prony::run),
     ],
 };
