@@ -8,6 +8,7 @@ mod lame;
 mod le1;
 mod le10;
 mod lee;
+mod limit_load;
 mod prony;
 mod slender;
 mod turek_hron;
@@ -35,6 +36,7 @@ pub const BENCHMARKS: Collection = Collection {
         ("beam-frequency", "Frequencies of a cantilever", frequency::run),
         ("lame-sphere", "Lamé: a thick sphere under inner pressure", lame::sphere),
         ("lame-cylinder", "Lamé: a thick cylinder under inner pressure", lame::cylinder),
+        ("j2-cylinder", "Limit load of a thick cylinder", limit_load::run),
         ("prony", "A Prony series under sudden and steady strain", prony::run),
     ],
 };
