@@ -1,6 +1,7 @@
 //! Published cases, most of them with quadratic elements: values of other programs and of closed forms on sequences of meshes.
 
 mod case;
+mod contact;
 mod cook;
 mod elastica;
 mod frequency;
@@ -37,6 +38,8 @@ pub const BENCHMARKS: Collection = Collection {
         ("lame-sphere", "Lamé: a thick sphere under inner pressure", lame::sphere),
         ("lame-cylinder", "Lamé: a thick cylinder under inner pressure", lame::cylinder),
         ("j2-cylinder", "Limit load of a thick cylinder", limit_load::run),
+        ("bar-impact", "A bar that hits a plane", contact::bar),
+        ("hertz", "Hertz: a ball on a plane", contact::hertz),
         ("prony", "A Prony series under sudden and steady strain", prony::run),
     ],
 };

@@ -1,6 +1,6 @@
 //! The experiments of a thesis on two-dimensional deformation with plasticity (2019): explicit integration of triangles from pictures.
 
-mod contact;
+pub(super) mod contact;
 mod convergence;
 mod drop;
 mod mesh;

@@ -31,6 +31,8 @@ pub struct Hertz {
     pub force: [f64; 2],
     /// Radius of the contact at the force F: (3 F R/(4 E*))^(1/3), m; found by the second moment of the pressure.
     pub radius: [f64; 2],
+    /// Number of nodes.
+    pub nodes: usize,
 }
 
 /// Presses a quarter of a block of 2 × 1 × 2 m whose lower side is a ball onto a plane, with elements of `h` (m) at the contact.
@@ -69,6 +71,7 @@ pub fn contact(h: f64) -> Result<Hertz, String> {
     let nodes = shape.mesh.vertices().iter().zip(forces.as_slice().chunks(3));
     let moment: f64 = nodes.map(|(x, force)| (x.x * x.x + x.z * x.z) * force[1]).sum();
     Ok(Hertz {
+        nodes: forces.len() / 3,
         force: [force, 4.0 / 3.0 * modulus * BALL.sqrt() * approach.powf(1.5)],
         // ∫ r² p dA = 2 F a²/5 for p = p₀ √(1 − r²/a²).
         radius: [(2.5 * moment / contact.force[1]).sqrt(), (0.75 * force * BALL / modulus).cbrt()],

@@ -131,7 +131,7 @@ fn add_stopping(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, methods: &[Integ
 
 fn add_impact(marks: &mut Vec<Mark>, method: Integrator) -> Result<(), String> {
     let name = method.name();
-    let impact::Impact { duration, stress, impulse_error } = impact::bar(method)?;
+    let impact::Impact { duration, stress, impulse_error } = impact::bar(method, 100, 1)?;
     marks.extend([
         Mark::new(
             format!("{name}: a bar of 100 elements touches a wall for 2 L/c within 2 %"),
@@ -168,7 +168,7 @@ fn add_hertz(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, quick: bool) -> Res
     ));
     let (mut forces, mut radii) = (Vec::new(), Vec::new());
     for cells in if quick { &[2.0, 3.0][..] } else { &[4.0, 8.0] } {
-        let ball::Hertz { force, radius } = ball::contact(ball::RADIUS / cells)?;
+        let ball::Hertz { force, radius, .. } = ball::contact(ball::RADIUS / cells)?;
         rows.push(row("ball, force (N)", *cells, force));
         rows.push(row("ball, radius (m)", *cells, radius));
         forces.push((force[0] / force[1] - 1.0).abs());
