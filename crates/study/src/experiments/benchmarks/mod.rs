@@ -24,6 +24,7 @@ pub const BENCHMARKS: Collection = Collection {
     parts: &[
         ("csm1", "Turek and Hron, CSM1: a beam behind a cylinder", turek_hron::csm1),
         ("csm2", "Turek and Hron, CSM2: the same, stiffer", turek_hron::csm2),
+        ("csm3", "Turek and Hron, CSM3: the first from rest", turek_hron::csm3),
         ("cook", "Cook's membrane, plane stress", cook::plane_stress),
         ("cook-strain", "Cook's membrane, plane strain", cook::plane_strain),
         ("cook-incompressible", "Cook's membrane, large strain, nearly incompressible", cook::incompressible),
