@@ -8,6 +8,7 @@ mod frequency;
 mod lame;
 mod le1;
 mod le10;
+mod le11;
 mod lee;
 mod limit_load;
 mod prony;
@@ -30,6 +31,7 @@ pub const BENCHMARKS: Collection = Collection {
         ("cook-incompressible", "Cook's membrane, large strain, nearly incompressible", cook::incompressible),
         ("le1", "NAFEMS LE1: an elliptic membrane", le1::run),
         ("le10", "NAFEMS LE10: a thick plate", le10::run),
+        ("le11", "NAFEMS LE11: a solid under an initial strain", le11::run),
         ("mh-straight", "MacNeal and Harder: a straight beam", slender::straight),
         ("mh-curved", "MacNeal and Harder: a curved beam", slender::curved),
         ("mh-twisted", "MacNeal and Harder: a twisted beam", slender::twisted),
