@@ -127,7 +127,7 @@ pub fn part(
     quantities: &[Quantity],
     (meshes, short): (&[usize], usize),
     quick: bool,
-    solve: impl Fn(usize) -> Result<Level, String>,
+    mut solve: impl FnMut(usize) -> Result<Level, String>,
 ) -> Result<Part, String> {
     let meshes = if quick { &meshes[..short] } else { meshes };
     let levels = meshes.iter().map(|&cells| Ok((cells, solve(cells)?))).collect::<Result<Vec<_>, String>>()?;

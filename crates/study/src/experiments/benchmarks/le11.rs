@@ -1,6 +1,6 @@
 //! NAFEMS LE11: a solid of a cylinder, a cone and a sphere under an initial strain. The Standard NAFEMS Benchmarks (1990).
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 use std::path::Path;
 
 use fem_model::{Body, BodyMesh, Elastic, Law, Material, Selector};
@@ -24,12 +24,12 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
 /// A point of the profile: from 0 to 1 across and upwards. The sphere has two fifths of the height, the cone as much, the cylinder the rest.
 fn profile(across: f64, up: f64) -> [f64; 2] {
     let line = |[a, b]: [[f64; 2]; 2], part: f64| [0, 1].map(|i| a[i] + part * (b[i] - a[i]));
-    let (knee, waist) = ([0.5f64.sqrt(), 0.5f64.sqrt()], [1.2083, 0.7071]);
+    let (knee, waist) = ([FRAC_1_SQRT_2; 2], [1.2083, FRAC_1_SQRT_2]);
     let shoulder = [1.0, 1.3971];
     let (inner, outer) = if up <= 0.4 {
         let arc = |radius: f64, angle: f64| [radius * angle.cos(), radius * angle.sin()];
         let part = up / 0.4;
-        (arc(1.0, 0.5 * FRAC_PI_2 * part), arc(1.4, (0.7071f64 / 1.4).asin() * part))
+        (arc(1.0, 0.5 * FRAC_PI_2 * part), arc(1.4, (FRAC_1_SQRT_2 / 1.4).asin() * part))
     } else if up <= 0.8 {
         let part = (up - 0.4) / 0.4;
         (line([knee, [knee[0], shoulder[1]]], part), line([waist, shoulder], part))
