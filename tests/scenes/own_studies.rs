@@ -215,9 +215,11 @@ fn the_scripts_for_slurm_run_every_shard_and_join_them() {
 }
 
 #[test]
-fn the_shipped_study_is_as_expected() {
+fn the_shipped_studies_are_as_expected() {
     let desk = Desk::new();
-    let file = crate::program::data().join("studies/cantilever.toml");
-    desk.run_well(&format!("study {} --quick --out found", file.display()));
-    assert_eq!(rows(&desk, "found/cantilever.csv").len(), 3);
+    for (name, count) in [("cantilever", 3), ("quadratic", 1)] {
+        let file = crate::program::data().join(format!("studies/{name}.toml"));
+        desk.run_well(&format!("study {} --quick --out found", file.display()));
+        assert_eq!(rows(&desk, &format!("found/{name}.csv")).len(), count);
+    }
 }

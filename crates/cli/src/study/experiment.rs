@@ -22,7 +22,7 @@ enum Experiment {
     Flat(Flat),
     /// Finite elements in real time: a squashed torus, its speed, precision, equilibrium, materials and other bodies
     Rtfem(Rtfem),
-    /// Published benchmarks: NAFEMS, MacNeal and Harder, Cook, Turek and Hron
+    /// Published benchmarks: NAFEMS, MacNeal and Harder, Cook, Turek and Hron, the elastica, Lee, Lamé, Hertz
     Benchmarks(Benchmarks),
 }
 
