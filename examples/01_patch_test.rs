@@ -9,7 +9,7 @@ use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Motion, 
 use nalgebra::Vector3;
 
 /// All laws: Young's modulus 1 MPa and Poisson's ratio 0.3 at small strain.
-fn laws() -> [Law; 9] {
+fn laws() -> [Law; 10] {
     let elastic = Elastic::new(1e6, 0.3);
     [
         Law::Linear(elastic),
@@ -21,6 +21,7 @@ fn laws() -> [Law; 9] {
         Law::MooneyRivlin { C10: 1.2e5, C01: 7.2e4, D: 4.2e5 },
         Law::Gent { C: 1.92e5, Jm: 50.0, D: 4.2e5 },
         Law::Yeoh { C1: 1.92e5, C2: -1e4, C3: 1e4, D: 4.2e5 },
+        Law::Ogden { terms: [Some([4.0e5, 1.3]), Some([1.0e3, 5.0]), Some([-1.22e5, -2.0])], D: 4.2e5 },
     ]
 }
 

@@ -62,6 +62,13 @@ pub enum Law {
         /// Half the bulk modulus at small strain, Pa.
         D: f64,
     },
+    /// Ogden.
+    Ogden {
+        /// μ, Pa, and α of each term.
+        terms: [Option<[f64; 2]>; 3],
+        /// Half the bulk modulus at small strain, Pa.
+        D: f64,
+    },
     /// No law: every edge of the mesh is a spring.
     MassSpring {
         /// Stiffness of the edges.
@@ -94,6 +101,18 @@ macro_rules! law_parameters {
             C3,
             /// Gent: the limit of Ī1 − 3, at which the stress has no bound; positive.
             Jm,
+            /// Ogden: factor of the first term, Pa. The shear modulus at small strain, Σ μ α/2 over the terms, is positive.
+            mu1,
+            /// Ogden: exponent of the stretches in the first term; not zero.
+            alpha1,
+            /// Ogden: factor of the second term, Pa.
+            mu2,
+            /// Ogden: exponent of the second term; not zero.
+            alpha2,
+            /// Ogden: factor of the third term, Pa.
+            mu3,
+            /// Ogden: exponent of the third term; not zero.
+            alpha3,
             /// Half the bulk modulus at small strain, Pa; positive.
             D,
             /// Mass-spring: stiffness of every edge, N/m; positive. With `young` in its place an edge of length l has the stiffness E ΣV/l², summed
@@ -125,6 +144,16 @@ pub struct LawFacts {
 
 /// Young's modulus and Poisson's ratio of small strain.
 const ELASTIC: &[&str] = &["young", "poisson"];
+
+/// The names of an Ogden term's factor and exponent.
+const OGDEN_TERMS: [[&str; 2]; 3] = [["mu1", "alpha1"], ["mu2", "alpha2"], ["mu3", "alpha3"]];
+
+/// One, two or three terms.
+const OGDEN: &[&[&str]] = &[
+    &["mu1", "alpha1", "D"],
+    &["mu1", "alpha1", "mu2", "alpha2", "D"],
+    &["mu1", "alpha1", "mu2", "alpha2", "mu3", "alpha3", "D"],
+];
 
 /// Moduli of small strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,7 +207,7 @@ pub enum Volumetric {
     #[default]
     Standard,
     /// At the mean of J = det F over a quadratic element, or over a patch of about eight linear ones: they lock far less. For the laws `linear`,
-    /// `neo_hookean`, `hencky`, `mooney_rivlin`, `yeoh` and `gent`; not in plane stress. Engine only.
+    /// `neo_hookean`, `hencky`, `mooney_rivlin`, `yeoh`, `gent` and `ogden`; not in plane stress. Engine only.
     Averaged,
 }
 
@@ -232,9 +261,19 @@ fn elastic(given: &Given) -> Elastic {
     Elastic::new(number(given, "young"), number(given, "poisson"))
 }
 
+/// Σ μ α/2, Pa
+fn ogden_shear_modulus(terms: &[Option<[f64; 2]>]) -> f64 {
+    0.5 * terms.iter().flatten().map(|[mu, alpha]| mu * alpha).sum::<f64>()
+}
+
+fn ogden_terms(given: &Given) -> [Option<[f64; 2]>; 3] {
+    let is_there = |names: &[&str; 2]| names[0] == "mu1" || names.iter().any(|name| given(name).is_some());
+    OGDEN_TERMS.map(|names| is_there(&names).then(|| names.map(|name| number(given, name))))
+}
+
 impl Law {
     /// The constitutive laws.
-    pub const FACTS: [LawFacts; 9] = {
+    pub const FACTS: [LawFacts; 10] = {
         use VolumeEnergy::{Change, Logarithm, Trace};
         const fn of_elastic(
             name: &'static str,
@@ -275,6 +314,7 @@ impl Law {
                 let [C, Jm, D] = ["C", "Jm", "D"].map(|name| number(given, name));
                 Self::Gent { C, Jm, D }
             }),
+            of("ogden", OGDEN, |given| Self::Ogden { terms: ogden_terms(given), D: number(given, "D") }),
         ]
     };
 
@@ -312,6 +352,7 @@ impl Law {
             Self::MooneyRivlin { .. } => "mooney_rivlin",
             Self::Yeoh { .. } => "yeoh",
             Self::Gent { .. } => "gent",
+            Self::Ogden { .. } => "ogden",
             Self::MassSpring { .. } => "mass_spring",
         }
     }
@@ -326,7 +367,7 @@ impl Law {
             | Self::StableNeoHookean(elastic)
             | Self::Hencky(elastic) => Some(elastic),
             Self::NeoHookean(NeoHookean::Moduli { .. }) | Self::MooneyRivlin { .. } | Self::Yeoh { .. } => None,
-            Self::Gent { .. } | Self::MassSpring { .. } => None,
+            Self::Gent { .. } | Self::Ogden { .. } | Self::MassSpring { .. } => None,
         }
     }
 
@@ -344,7 +385,8 @@ impl Law {
             }
             Self::MassSpring { stiffness: EdgeStiffness::Young(own), .. } => *own = young.unwrap_or(*own),
             Self::NeoHookean(NeoHookean::Moduli { .. }) | Self::MooneyRivlin { .. } | Self::Yeoh { .. } => {}
-            Self::Gent { .. } | Self::MassSpring { stiffness: EdgeStiffness::Uniform(_), .. } => {}
+            Self::Gent { .. } | Self::Ogden { .. } => {}
+            Self::MassSpring { stiffness: EdgeStiffness::Uniform(_), .. } => {}
         }
         self
     }
@@ -362,6 +404,12 @@ impl Law {
             Self::MooneyRivlin { C10, C01, D } => vec![("C10", C10), ("C01", C01), ("D", D)],
             Self::Yeoh { C1, C2, C3, D } => vec![("C1", C1), ("C2", C2), ("C3", C3), ("D", D)],
             Self::Gent { C, Jm, D } => vec![("C", C), ("Jm", Jm), ("D", D)],
+            Self::Ogden { terms, D } => {
+                let of_terms = OGDEN_TERMS.into_iter().zip(terms).filter_map(|(names, term)| Some((names, term?)));
+                let mut all: Vec<_> = of_terms.flat_map(|(names, term)| names.into_iter().zip(term)).collect();
+                all.push(("D", D));
+                all
+            }
             Self::MassSpring { stiffness, damping } => {
                 let stiffness = match stiffness {
                     EdgeStiffness::Uniform(stiffness) => ("stiffness", stiffness),
@@ -383,6 +431,7 @@ impl Law {
                 Some(of_moduli(C, D))
             }
             Self::MooneyRivlin { C10, C01, D } => Some(of_moduli(C10 + C01, D)),
+            Self::Ogden { terms, D } => Some(of_moduli(0.5 * ogden_shear_modulus(&terms), D)),
             _ => self.elastic().map(|elastic| elastic.poisson),
         }
     }
@@ -426,12 +475,22 @@ impl Material {
                 "poisson" => {
                     return problem(&field, format!("is {value}; Poisson's ratio lies above -1 and below 0.5"));
                 }
-                "C10" | "C01" | "C2" | "C3" => check_finite(&field, &[value])?,
+                "C10" | "C01" | "C2" | "C3" | "mu1" | "mu2" | "mu3" => check_finite(&field, &[value])?,
+                "alpha1" | "alpha2" | "alpha3" if value == 0.0 => {
+                    return problem(
+                        &field,
+                        "is 0, where a term has no energy; give another exponent, or leave the term out",
+                    );
+                }
+                "alpha1" | "alpha2" | "alpha3" => check_finite(&field, &[value])?,
                 "Jm" => check_positive(&field, value, "")?,
                 "stiffness" => check_positive(&field, value, " of N/m")?,
                 "damping" => check_not_negative(&field, value, "N s/m")?,
                 _ => check_positive(&field, value, " of Pa")?,
             }
+        }
+        if let Law::Ogden { terms, .. } = self.law {
+            check_ogden(&format!("{table}.mu1"), ogden_shear_modulus(&terms))?;
         }
         self.check_volumetric(&format!("{table}.volumetric"))
     }
@@ -456,4 +515,15 @@ impl Material {
             ),
         }
     }
+}
+
+fn check_ogden(field: &str, shear_modulus: f64) -> Result<(), Refusal> {
+    if shear_modulus > 0.0 && shear_modulus.is_finite() {
+        return Ok(());
+    }
+    let text = format!(
+        "and the other terms have a shear modulus Σ mu alpha/2 of {shear_modulus} Pa at small strain; it must be positive and finite, as it is if mu \
+         has the sign of alpha in each term"
+    );
+    problem(field, text)
 }

@@ -35,7 +35,7 @@ impl<T: Number> Hencky<T> {
             moduli[k][k] += two_mu;
         }
         let tau = [two_mu * e[0] + pressure, two_mu * e[1] + pressure, two_mu * e[2] + pressure];
-        Kirchhoff { tau, ratio: two_mu, moduli }
+        Kirchhoff { tau, ratios: [two_mu; 3], moduli }
     }
 }
 

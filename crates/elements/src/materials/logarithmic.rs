@@ -18,13 +18,13 @@ pub(crate) struct Logarithmic<T> {
     pub strains: [T; 3],
 }
 
-/// Kirchhoff's principal stresses of a law that is linear in the strains or in their change, Pa.
+/// Kirchhoff's principal stresses of a law and their slopes, Pa.
 #[derive(Clone, Copy)]
 pub(crate) struct Kirchhoff<T> {
     /// τ_i
     pub tau: [T; 3],
-    /// (τ_i − τ_j)/(ε_i − ε_j) of any two axes: twice a shear modulus.
-    pub ratio: T,
+    /// (τ_i − τ_j)/(ε_i − ε_j) of two axes, with the index of the third: twice a shear modulus of Hooke's law.
+    pub ratios: [T; 3],
     /// ∂τ_i/∂ε_j
     pub moduli: Tensor<T>,
 }
@@ -51,7 +51,7 @@ impl<T: Number> Logarithmic<T> {
     }
 
     /// The terms of ∂P/∂F. With m_i = τ_i/σ_i, (m_i − m_j)/(σ_i − σ_j) is (L (σ_i + σ_j)/2 − (τ_i + τ_j)/2)/(σ_i σ_j), where
-    /// L = (τ_i − τ_j)/(σ_i − σ_j) is `ratio` times ln(σ_i/σ_j)/(σ_i − σ_j).
+    /// L = (τ_i − τ_j)/(σ_i − σ_j) is the ratio times ln(σ_i/σ_j)/(σ_i − σ_j).
     #[inline(always)]
     pub fn principal(&self, stress: &Kirchhoff<T>) -> Principal<T> {
         let (sigma, tau) = (&self.F.sigma, &stress.tau);
@@ -62,7 +62,7 @@ impl<T: Number> Logarithmic<T> {
             let x = (sigma[i] - sigma[j]) / sigma[j];
             // 1 − ln(1 + x)/x, of which the limit at x = 0 is zero.
             let lost = T::zero().select(x.eq(T::zero()), minus_ln_1p(x) / x);
-            let slope = stress.ratio * (T::one() - lost) / sigma[j];
+            let slope = stress.ratios[k] * (T::one() - lost) / sigma[j];
             principal.twist[k] = (tau[i] / sigma[i] + tau[j] / sigma[j]) / sum;
             principal.flip[k] = half::<T>() * (slope * sum - (tau[i] + tau[j])) / product;
             for l in 0..3 {

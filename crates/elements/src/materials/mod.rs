@@ -17,6 +17,7 @@ mod linear;
 mod logarithmic;
 mod mooney_rivlin;
 mod neo_hookean;
+mod ogden;
 mod plane_corotated;
 mod quadratic_form;
 mod st_venant_kirchhoff;
@@ -58,6 +59,7 @@ macro_rules! law_list {
                 mooney_rivlin::MooneyRivlin,
                 yeoh::Yeoh,
                 gent::Gent,
+                ogden::Ogden,
             }
         }
     };

@@ -185,6 +185,8 @@ pub trait Float: RealField + Packed + Default + std::iter::Sum {
     const MAX_WIDTH: usize;
     /// Relative distance from 1 to the next number.
     const EPSILON: Self;
+    /// The least integer k for which 2^k is infinite.
+    const MAX_EXPONENT: i32;
 
     /// Lanes with the value of each lane number.
     fn lanes(value: impl FnMut(usize) -> Self) -> Self::Lanes;
@@ -212,6 +214,9 @@ pub trait Float: RealField + Packed + Default + std::iter::Sum {
 
     /// x/2^k in [√½, √2), with k the [`binary_exponent`](Self::binary_exponent).
     fn significand(self) -> Self;
+
+    /// 2^k for an integer k; zero in place of subnormal numbers, and 1 for NaN.
+    fn power_of_two(self) -> Self;
 }
 
 /// The bits of x^(−1/3) are about these minus a third of those of x. In single precision shifts and additions find the third:

@@ -148,6 +148,7 @@ macro_rules! real {
             const WIDTH: usize = $width;
             const MAX_WIDTH: usize = $max_width;
             const EPSILON: Self = $float::EPSILON;
+            const MAX_EXPONENT: i32 = $float::MAX_EXP;
 
             #[inline(always)]
             fn lanes(value: impl FnMut(usize) -> $float) -> Self::Lanes {
@@ -201,6 +202,13 @@ real!(f64, F64x4, FastF64, 4, 8, {
         let beyond = self.to_bits().wrapping_sub(std::f64::consts::FRAC_1_SQRT_2.to_bits());
         f64::from_bits(self.to_bits().wrapping_sub(beyond & 0xfff0_0000_0000_0000))
     }
+
+    #[inline(always)]
+    fn power_of_two(self) -> f64 {
+        // Between the exponents of zero and infinity.
+        let exponent = (self as i32).clamp(1 - Self::MAX_EXPONENT, Self::MAX_EXPONENT) + Self::MAX_EXPONENT - 1;
+        f64::from_bits((exponent as u64) << 52)
+    }
 });
 
 real!(f32, F32x8, FastF32, 8, 16, {
@@ -233,5 +241,12 @@ real!(f32, F32x8, FastF32, 8, 16, {
     fn significand(self) -> f32 {
         let beyond = self.to_bits().wrapping_sub(std::f32::consts::FRAC_1_SQRT_2.to_bits());
         f32::from_bits(self.to_bits().wrapping_sub(beyond & 0xff80_0000))
+    }
+
+    #[inline(always)]
+    fn power_of_two(self) -> f32 {
+        // Between the exponents of zero and infinity.
+        let exponent = (self as i32).clamp(1 - Self::MAX_EXPONENT, Self::MAX_EXPONENT) + Self::MAX_EXPONENT - 1;
+        f32::from_bits((exponent as u32) << 23)
     }
 });

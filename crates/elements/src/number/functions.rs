@@ -49,3 +49,33 @@ pub fn minus_ln_1p<T: Number>(x: T) -> T {
     }
     s * (y - constant::<T>(2.0) * squared * series) + ((x - y) - k * constant(std::f64::consts::LN_2))
 }
+
+/// ln 2 in two parts: multiples of the first by an exponent are exact.
+const LN_2: [f64; 2] = [0.693145751953125, 1.428_606_820_309_417_2e-6];
+
+/// e^x − 1 and e^x − 1 − x with all digits also near zero, where they are x and x²/2; infinity where e^x is above the range.
+///
+/// x = k ln 2 + r leaves a small r, and e^x = 2^k e^r with the series of e^r.
+#[inline(always)]
+pub fn exp_m1<T: Number>(x: T) -> [T; 2] {
+    let limit = constant::<T>(f64::from(<T::Element as Float>::MAX_EXPONENT) * std::f64::consts::LN_2);
+    // In this order NaN stays NaN.
+    let inside = limit.min((-limit).max(x));
+    // To this number, only integers can be added.
+    let integers = constant::<T>(1.5 / Float::as_f64(<T::Element as Float>::EPSILON));
+    let k = inside.times_plus(constant(std::f64::consts::LOG2_E), integers) - integers;
+    let r = (inside - k * constant(LN_2[0])) - k * constant(LN_2[1]);
+    // e^r − 1 − r = r²/2 (1 + r/3 (1 + r/4 (…))); |r| < 0.35: up to r¹⁵ they are enough for f64.
+    let mut series = T::one();
+    for n in (3..=15).rev() {
+        series = series.times_plus(r * constant(1.0 / f64::from(n)), T::one());
+    }
+    let beyond = constant::<T>(0.5) * r * r * series;
+    let power = k.map_lanes(
+        #[inline(always)]
+        |k| k.power_of_two(),
+    );
+    let change = power * (T::one() + (r + beyond)) - T::one();
+    let is_small = k.eq(T::zero());
+    [(r + beyond).select(is_small, change), beyond.select(is_small, change - x)]
+}

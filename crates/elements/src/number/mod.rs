@@ -13,7 +13,7 @@ mod lanes;
 mod packed;
 
 pub use arithmetic::{Float, Lanes, Number};
-pub use functions::{constant, inverse_cube_root, is_positive, minus_ln_1p};
+pub use functions::{constant, exp_m1, inverse_cube_root, is_positive, minus_ln_1p};
 #[cfg(target_arch = "x86_64")]
 pub use instructions::avx2;
 pub use instructions::check_instructions;

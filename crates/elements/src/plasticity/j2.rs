@@ -97,7 +97,7 @@ impl<T: Number> J2<T> {
             }
             moduli[k][k] += ratio;
         }
-        Kirchhoff { tau, ratio, moduli }
+        Kirchhoff { tau, ratios: [ratio; 3], moduli }
     }
 
     /// The stress of F from that of F Fᵖ⁻¹: P Fᵖ⁻ᵀ.

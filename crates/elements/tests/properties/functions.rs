@@ -1,4 +1,4 @@
-use fem_elements::number::{inverse_cube_root, minus_ln_1p};
+use fem_elements::number::{exp_m1, inverse_cube_root, minus_ln_1p};
 
 #[test]
 fn x_minus_the_logarithm_of_1_plus_x_is_accurate_near_zero() {
@@ -18,6 +18,39 @@ fn x_minus_the_logarithm_of_1_plus_x_is_accurate_near_zero() {
         }
     }
     assert_eq!(minus_ln_1p(0.0), 0.0);
+}
+
+#[test]
+fn exponentials_minus_one_are_accurate_near_zero_and_over_the_whole_range() {
+    for exponent in -60..=9 {
+        for factor in [1.0, -1.0, 1.7, -1.9, 0.7, -0.55] {
+            let x: f64 = factor * 2f64.powi(exponent);
+            let [y, beyond] = exp_m1(x);
+            let series = x * x / 2.0 + x.powi(3) / 6.0 + x.powi(4) / 24.0 + x.powi(5) / 120.0;
+            let expected = if x.abs() < 1e-3 { series } else { x.exp_m1() - x };
+            let lost = if x.abs() < 1e-3 { 2e-15 } else { 1e-15 + 4e-16 / x.abs().min(1.0) };
+            if x > 709.0 {
+                assert_eq!([y, beyond], [f64::INFINITY; 2], "{x}");
+                continue;
+            }
+            assert!((y / x.exp_m1() - 1.0).abs() < 2e-15, "{x}: {y}");
+            assert!((beyond / expected - 1.0).abs() < 4.0 * lost, "{x}: {beyond}");
+            let [y, beyond] = exp_m1(x as f32).map(f64::from);
+            if x > 88.0 {
+                assert_eq!([y, beyond], [f64::INFINITY; 2], "{x}");
+                continue;
+            }
+            // The rounding of x changes e^x by this part.
+            let tolerance = 4e-6 * x.abs().max(1.0);
+            assert!(
+                (y / x.exp_m1() - 1.0).abs() < tolerance && (beyond / expected - 1.0).abs() < tolerance,
+                "{x}: {y}"
+            );
+        }
+    }
+    assert_eq!(exp_m1(0.0), [0.0; 2]);
+    assert_eq!([exp_m1(f64::INFINITY)[0], exp_m1(f64::NEG_INFINITY)[0]], [f64::INFINITY, -1.0]);
+    assert!(exp_m1(f64::NAN).into_iter().all(f64::is_nan) && exp_m1(f32::NAN).into_iter().all(f32::is_nan));
 }
 
 #[test]

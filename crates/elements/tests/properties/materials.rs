@@ -7,6 +7,7 @@ mod kelvin_voigt;
 mod lanes;
 mod mooney_rivlin;
 mod near_rest;
+mod ogden;
 mod plane_corotated;
 mod projected;
 mod scenes;
@@ -16,7 +17,8 @@ mod yeoh;
 
 use fem_elements::Real;
 use fem_elements::materials::{
-    AnyLaw, Corotated, Gent, Hencky, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean, Yeoh,
+    AnyLaw, Corotated, Gent, Hencky, Law, Linear, MooneyRivlin, NeoHookean, Ogden, StVenantKirchhoff, StableNeoHookean,
+    Yeoh,
 };
 use fem_elements::number::{Number, constant};
 use fem_elements::tensor::{Tensor, Tensor4};
@@ -65,6 +67,11 @@ fn gent<T: Number>() -> Gent<T> {
     Gent { C, Jm: constant(200.0), D }
 }
 
+fn ogden<T: Number>() -> Ogden<T> {
+    let NeoHookean { D, .. } = neo_hookean();
+    Ogden { mu: [1.0, 0.075, -0.6].map(constant), alpha: [1.5, 4.0, -2.0].map(constant), D }
+}
+
 /// All laws.
 fn laws<T: Number>() -> Vec<AnyLaw<T>> {
     vec![
@@ -77,6 +84,7 @@ fn laws<T: Number>() -> Vec<AnyLaw<T>> {
         AnyLaw::MooneyRivlin(mooney_rivlin()),
         AnyLaw::Yeoh(yeoh()),
         AnyLaw::Gent(gent()),
+        AnyLaw::Ogden(ogden()),
     ]
 }
 

@@ -133,6 +133,13 @@ fn of_law(model: &str, scene: &str) -> String {
         "mooney_rivlin" => format!("C10 = {}\nC01 = {}\nD = {D}", 0.625 * C, 0.375 * C),
         "gent" => format!("C = {C}\nJm = 30\nD = {D}"),
         "yeoh" => format!("C1 = {C}\nC2 = {}\nC3 = {}\nD = {D}", -0.05 * C, 0.02 * C),
+        "ogden" => {
+            // Σ μ α/2 is the shear modulus 2C.
+            let of_terms = [1.5, 4.0, -2.0].into_iter().zip([2.0, 0.075, -0.85]).enumerate();
+            let terms = of_terms
+                .map(|(n, (alpha, mu))| format!("mu{0} = {1}\nalpha{0} = {alpha}\n", n + 1, 4.0 * C * mu / 5.0));
+            terms.chain([format!("D = {D}")]).collect()
+        }
         _ => "young = 1e5\npoisson = 0.3".to_owned(),
     };
     let material = format!("model = \"{model}\"\n{parameters}");

@@ -11,7 +11,7 @@ use crate::{build, of_kuhn, of_law, run, scene, soft};
 
 const BOX: &str = "box = { size = [1.5, 0.5, 0.5], cells_per_unit = 4 }";
 const RECTANGLE: &str = "rectangle = { size = [1.5, 0.5], cells_per_unit = 4 }";
-const LAWS: [&str; 8] = [
+const LAWS: [&str; 9] = [
     "corotated",
     "st_venant_kirchhoff",
     "neo_hookean",
@@ -20,6 +20,7 @@ const LAWS: [&str; 8] = [
     "mooney_rivlin",
     "yeoh",
     "gent",
+    "ogden",
 ];
 
 /// A body with E = 1e5 Pa and ν = 0.3; `rest` are further tables.
