@@ -114,6 +114,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("time.adaptive", scene.time.adaptive.is_some()),
         ("materials", !scene.materials.is_empty()),
         ("plasticity", scene.plasticity.is_some()),
+        ("fibres", !scene.fibres.is_empty()),
         ("newton", scene.newton.is_some()),
         ("energy", scene.energy.is_some()),
         ("solver", scene.solver.is_some()),

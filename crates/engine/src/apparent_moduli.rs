@@ -92,6 +92,7 @@ fn with_fixed_boundary(body: &Body) -> Body {
         nodal_forces: Vec::new(),
         pressures: Vec::new(),
         fields: ForceFields::default(),
+        fibres: Vec::new(),
         springs: Vec::new(),
         contact: None,
         drag: None,

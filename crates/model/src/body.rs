@@ -9,8 +9,9 @@ use crate::regions::density_factors;
 use crate::selector::{elements, listed, loaded_faces, nodes};
 use crate::simulation::Shape;
 use crate::{
-    BodyMesh, Contact, Damping, DirichletCondition, Drag, ForceFields, Law, LoadCurve, Material, MaterialRegion,
-    Method, Motion, NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
+    BodyMesh, Contact, Damping, DirichletCondition, Drag, FibreDirections, FibreFamily, FibreLaw, ForceFields, Law,
+    LoadCurve, Material, MaterialRegion, Method, Motion, NodalForce, PlaneState, Plasticity, Pressure, Refusal,
+    Selector, Spring, Traction, check_disjoint,
 };
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
@@ -55,6 +56,8 @@ pub struct Body {
     pub nodal_forces: Vec<NodalForce>,
     /// Follower loads on the surface.
     pub pressures: Vec<Pressure>,
+    /// Families of fibres in the elements.
+    pub fibres: Vec<FibreFamily>,
     /// Force fields.
     pub fields: ForceFields,
     /// Springs between nodes.
@@ -111,6 +114,7 @@ impl Body {
             tractions: Vec::new(),
             nodal_forces: Vec::new(),
             pressures: Vec::new(),
+            fibres: Vec::new(),
             fields: ForceFields::default(),
             springs: Vec::new(),
             contact: None,
@@ -205,6 +209,16 @@ impl Body {
         check_vector(&format!("{table}.value"), &force)?;
         let nodes = nodes(&table, selector, &self.shape.mesh)?;
         self.nodal_forces.push(NodalForce { nodes, force: force.into(), curve: None });
+        Ok(self)
+    }
+
+    /// Adds a family of fibres to elements, beside the law of their material.
+    pub fn fibres(mut self, selector: &Selector, law: FibreLaw, directions: &FibreDirections) -> Result<Self, Refusal> {
+        let name = format!("fibres[{}]", self.fibres.len());
+        law.check(&name)?;
+        let elements = elements(&name, selector, &self.shape.mesh)?;
+        let directions = directions.of(&name, &elements, &self.shape.mesh)?;
+        self.fibres.push(FibreFamily { name, law, directions });
         Ok(self)
     }
 

@@ -489,9 +489,6 @@ impl Material {
                 _ => check_positive(&field, value, " of Pa")?,
             }
         }
-        if let Law::Ogden { terms, .. } = self.law {
-            check_ogden(&format!("{table}.mu1"), ogden_shear_modulus(&terms))?;
-        }
         self.check_volumetric(&format!("{table}.volumetric"))
     }
 
@@ -515,15 +512,4 @@ impl Material {
             ),
         }
     }
-}
-
-fn check_ogden(field: &str, shear_modulus: f64) -> Result<(), Refusal> {
-    if shear_modulus > 0.0 && shear_modulus.is_finite() {
-        return Ok(());
-    }
-    let text = format!(
-        "and the other terms have a shear modulus Σ mu alpha/2 of {shear_modulus} Pa at small strain; it must be positive and finite, as it is if mu \
-         has the sign of alpha in each term"
-    );
-    problem(field, text)
 }

@@ -10,8 +10,8 @@ use crate::meshes::{elements, flat_body, mesh_error, surface};
 use crate::paths::find;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
-    contact, curve, damping, dirichlet_conditions, drag, initial_velocity, nodal_forces, plasticity, regions, springs,
-    surface_loads,
+    contact, curve, damping, dirichlet_conditions, drag, fibres, initial_velocity, nodal_forces, plasticity, regions,
+    springs, surface_loads,
 };
 use crate::{Scene, SceneError, picture};
 
@@ -64,6 +64,7 @@ fn values(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, Refusal> {
     body.body_force = scene.body_force.as_ref().map(|force| force.density.into());
     body.body_force_curve = scene.body_force.as_ref().and_then(|force| curve(&force.curve));
     body.plasticity = plasticity(scene);
+    body.fibres = fibres(scene, mesh, |file| find(scene, data, file))?;
     body.lumped_mass = scene.lumps_mass(mesh.vertices().len());
     body.nodal_forces = nodal_forces(scene, mesh)?;
     body.fields = scene.fields();

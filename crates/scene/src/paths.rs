@@ -44,11 +44,15 @@ fn paths(tables: &mut Table) -> Vec<&mut Value> {
                 ("surface" | "picture", Value::Table(source)) => found.extend(source.get_mut("file")),
                 _ => {}
             }),
-            ("initial_velocity", Value::Array(entries)) => {
-                found.extend(entries.iter_mut().filter_map(|entry| entry.as_table_mut()?.get_mut("per_node")));
-            }
+            ("initial_velocity", Value::Array(entries)) => found.extend(of_each(entries, "per_node")),
+            ("fibres", Value::Array(entries)) => found.extend(of_each(entries, "per_element")),
             _ => {}
         }
     }
     found
+}
+
+/// The values of a key in a list of tables.
+fn of_each<'a>(entries: &'a mut [Value], key: &'a str) -> impl Iterator<Item = &'a mut Value> {
+    entries.iter_mut().filter_map(move |entry| entry.as_table_mut()?.get_mut(key))
 }

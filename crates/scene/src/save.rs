@@ -15,13 +15,14 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 30] = [
+const ORDER: [&str; 31] = [
     "about",
     "pipeline",
     "mesh",
     "material",
     "materials",
     "plasticity",
+    "fibres",
     "mass",
     "gravity",
     "body_force",

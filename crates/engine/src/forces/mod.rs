@@ -6,6 +6,7 @@ pub mod contact;
 pub mod dead_load;
 pub mod drag;
 mod energy;
+mod fibres;
 mod hessian_kind;
 pub mod mass_spring;
 mod points;
@@ -40,7 +41,7 @@ pub struct Kind<T: Real> {
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
 /// Every force that a scene can ask for; `[drag]` and the user's interaction are [`DragSprings`].
-pub fn kinds<T: Real>() -> [Kind<T>; 9] {
+pub fn kinds<T: Real>() -> [Kind<T>; 10] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
         Kind {
@@ -48,6 +49,7 @@ pub fn kinds<T: Real>() -> [Kind<T>; 9] {
             tables: "[material] with volumetric = \"averaged\"",
             build: averaged_volume::build,
         },
+        Kind { name: fibres::NAME, tables: "[[fibres]]", build: fibres::build },
         Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
         Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },

@@ -62,6 +62,16 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
             "is not known in plane stress; write material.plane = \"strain\", or remove it".to_owned(),
         ),
         (
+            !body.fibres.is_empty() && (body.plasticity.is_some() || body.material.is_mass_spring()),
+            "fibres",
+            "are for elastic elements; remove the tables, or [plasticity] or the springs".to_owned(),
+        ),
+        (
+            !body.fibres.is_empty() && body.material.plane == PlaneState::Stress,
+            "fibres",
+            "are not known in plane stress; write material.plane = \"strain\", or remove the tables".to_owned(),
+        ),
+        (
             follows && moved.is_some(),
             "static.arc_length",
             format!(
@@ -109,7 +119,7 @@ pub(super) fn check_force<T: Real>(method: &Method, force: &dyn Potential<T>) ->
             format!("is \"{name}\", which does not know follower loads; use implicit_euler"),
         ),
         (
-            method.integrator == IntegratorKind::ProjectiveDynamics && force.is_relaxing(),
+            method.integrator == IntegratorKind::ProjectiveDynamics && force.in_elements().is_some(),
             "time.integrator",
             format!("is \"{name}\", which does not know the force `{}`; use implicit_euler", force.name()),
         ),

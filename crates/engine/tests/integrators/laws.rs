@@ -38,4 +38,7 @@ fn parameters_without_a_positive_shear_modulus_are_refused() {
         let expected = "Pa at small strain; give parameters that make it positive";
         assert!(error.as_ref().is_some_and(|error| error.contains(expected)), "{error:?}");
     }
+    let text = of_law("ogden", &soft("verlet", 1e-3, "")).replace("alpha1 = 1.5", "alpha1 = -1.5");
+    let error = try_build(&text).err().map(|e| e.to_string());
+    assert!(error.as_ref().is_some_and(|error| error.contains("Pa at small strain; give parameters")), "{error:?}");
 }

@@ -4,6 +4,7 @@ mod batch;
 mod constraints;
 pub(crate) mod contact;
 mod curves;
+mod fibres;
 pub(crate) mod flat;
 mod initial;
 mod iterations;
@@ -32,6 +33,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     materials::check(scene)?;
     mass_spring::check(scene)?;
     plasticity::check(scene)?;
+    fibres::check(scene)?;
     flat::check_plane(scene)?;
     check_time(&scene.time)?;
     batch::check(scene)?;

@@ -4,6 +4,7 @@ mod batch;
 mod constraints;
 mod contact;
 mod curve;
+mod fibres;
 mod initial;
 mod loads;
 mod material;
@@ -17,6 +18,7 @@ pub use curve::{CurveTable, SineTable};
 pub use batch::{BatchTable, RangeTable, Spacing, VaryTable};
 pub use constraints::{FixedTable, PrescribedTable, RotationTable};
 pub use contact::{ContactTable, PlaneTable};
+pub use fibres::{AroundTable, FibresTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
 pub use loads::{BodyForceTable, DragTable, DragVertex, ForceTable, GravityTable, SpringTable, TractionTable};
 pub use material::{MaterialTable, MaterialsTable};
@@ -72,6 +74,9 @@ macro_rules! scene {
             pub materials: Vec<MaterialsTable>,
             /// `[plasticity]`
             pub plasticity: Option<PlasticityTable>,
+            /// `[[fibres]]`
+            #[serde(default)]
+            pub fibres: Vec<FibresTable>,
             /// `[mass]`
             #[serde(default)]
             pub mass: MassTable,

@@ -6,8 +6,11 @@ use fem_model::{BodyMesh, Refusal, nodes};
 use nalgebra::Vector3;
 
 use super::chosen;
+use super::vectors::{Rows, vectors};
 use crate::Scene;
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
+
+const PER_NODE: Rows = Rows { each: "nodes", form: "x,y,z in m/s" };
 
 /// The velocity of each node at the start, m/s: the sum over all `[[initial_velocity]]`; empty without such a table. `density` is that
 /// of each element, kg/m³, and `find` turns the path of a file in the scene into the path to open.
@@ -30,12 +33,13 @@ pub(crate) fn initial_velocity(
         };
         let field = format!("{name}.per_node");
         let path = table.per_node.as_deref().map(&find);
-        let per_node =
-            path.map(|path| velocities(&path, mesh.vertices().len()).map_err(|reason| Refusal::new(&field, reason)));
+        let per_node = path.map(|path| {
+            vectors(&path, mesh.vertices().len(), &PER_NODE).map_err(|reason| Refusal::new(&field, reason))
+        });
         let per_node = per_node.transpose()?.unwrap_or_default();
         for node in nodes {
             sum[node] += velocity(table, &centre_of_mass, &mesh.vertices()[node]);
-            sum[node] += per_node.get(node).copied().unwrap_or_default();
+            sum[node] += per_node.get(node).map_or(Vector3::zeros(), |row| row.vector);
         }
     }
     Ok(sum)
@@ -62,33 +66,3 @@ fn centre_of_mass(mesh: &BodyMesh, density: impl Fn(usize) -> f64) -> Vector3<f6
     }
     moment / mass
 }
-
-/// Reads a velocity for each node: three numbers a line, after a line of titles if there is one. The error continues a sentence that
-/// begins with the field.
-fn velocities(path: &Path, nodes: usize) -> Result<Vec<Vector3<f64>>, String> {
-    let file = path.display();
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| format!("is {file}, which cannot be read: {error}; check the path"))?;
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let has_titles = |line: &str| line.split(',').all(|word| word.trim().parse::<f64>().is_err());
-    let mut velocities = Vec::new();
-    for (number, line) in lines.filter(|(number, line)| *number > 0 || !has_titles(line)) {
-        let at = || format!("is {file}, whose line {}", number + 1);
-        let numbers: Result<Vec<f64>, _> = line.split(',').map(|word| word.trim().parse()).collect();
-        let numbers = numbers.map_err(|_| format!("{} is no list of numbers; write x,y,z in m/s", at()))?;
-        let [x, y, z] = numbers[..] else {
-            return Err(format!("{} has {} numbers; write x,y,z in m/s", at(), numbers.len()));
-        };
-        if !numbers.iter().all(|number| number.abs() <= LARGEST) {
-            return Err(format!("{} has a number that is not finite or too large; give at most {LARGEST:e}", at()));
-        }
-        velocities.push(Vector3::new(x, y, z));
-    }
-    if velocities.len() == nodes {
-        return Ok(velocities);
-    }
-    Err(format!("is {file}, which has {} lines; the mesh has {nodes} nodes, give a line for each", velocities.len()))
-}
-
-/// Largest component of a velocity, m/s: squares of it do not overflow.
-const LARGEST: f64 = 1e60;

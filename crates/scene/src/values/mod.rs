@@ -2,16 +2,19 @@
 
 mod batch;
 mod constraints;
+mod fibres;
 mod initial;
 mod loads;
 mod materials;
 mod method;
 mod planes;
 mod plasticity;
+mod vectors;
 
 use fem_model::Selector;
 
 pub(crate) use constraints::dirichlet_conditions;
+pub(crate) use fibres::fibres;
 pub(crate) use initial::initial_velocity;
 pub(crate) use loads::{curve, drag, faces_of_loads, nodal_forces, springs, surface_loads};
 pub(crate) use materials::regions;

@@ -7,6 +7,7 @@ mod bodies;
 mod curves;
 mod errors;
 mod examples;
+mod fibres;
 mod initial;
 mod lookup;
 mod materials;

@@ -57,12 +57,13 @@ fn unknown(body: &Body, method: &Method) -> Option<Unknown> {
     let field = body.fields.tables().next();
     let iterations = method.iterations;
     let is_accelerated = iterations.acceleration.is_some_and(|radius| radius > 0.0);
-    let keys: [(&'static str, bool, &'static str, &'static str); 21] = [
+    let keys: [(&'static str, bool, &'static str, &'static str); 22] = [
         ("mesh", body.shape.mesh.dimension() == 2, "is a flat body", "take tetrahedra"),
         ("mesh.order", body.shape.mesh.element().order != 1, "makes quadratic elements", "write 1"),
         ("material.volumetric", body.averages_volume(), "averages the volume of patches", "remove it"),
         ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
         ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
+        ("fibres", !body.fibres.is_empty(), "are forces within elements", "remove the tables"),
         (
             "mass.lumped",
             !body.lumped_mass,
