@@ -52,6 +52,7 @@ fn a_scene_with_painted_nodes_loaded_faces_and_another_solver_reads_back() {
             "prescribed.0={nodes=[7], velocity=[0.1, 0, 0]}",
             "solver={kind=\"pcg\", preconditioner=\"ssor\", tolerance=1e-9}",
             "newton.max_iterations=3",
+            "fibres.0={on=\"all\", modulus=1e4, around={axis=[0, 0, 1], angle=30}}",
         ],
     );
     assert_reads_back(&scene);

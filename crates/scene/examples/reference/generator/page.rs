@@ -7,9 +7,10 @@ use super::source::{Choice, Key, Source, Table};
 use super::value::{default, is_list, is_required, meaning, names, struct_or_enum, values};
 
 /// Pages on the matter of a table.
-const PAGES: [(&str, &str); 13] = [
+const PAGES: [(&str, &str); 14] = [
     ("mesh", "[Flat bodies](scenes.md#flat-bodies)"),
     ("material", "[Materials](materials.md)"),
+    ("fibres", "[Fibres](materials.md#fibres)"),
     ("plasticity", "[Plasticity](plasticity.md)"),
     ("planes", "[Contact](contact.md)"),
     ("contact", "[Contact](contact.md)"),
