@@ -100,6 +100,14 @@ fn steps_with_plastic_flow_allocate_nothing() {
 }
 
 #[test]
+fn steps_with_fibres_allocate_nothing() {
+    for integrator in ["verlet", "linearly_implicit_euler", "implicit_euler", "newmark"] {
+        let family = "[[fibres]]\nmodulus = 1e4\nexponent = 0.5\ndirection = [1, 0, 0]\n";
+        assert_eq!(allocations(integrator, family), 0, "{integrator}");
+    }
+}
+
+#[test]
 fn steps_of_flat_bodies_allocate_nothing() {
     let flat = SCENE
         .replace("box = { size = [2, 1, 1], cells_per_unit = 3 }", "rectangle = { size = [2, 1], cells_per_unit = 3 }")
