@@ -11,7 +11,7 @@ use crate::simulation::Shape;
 use crate::{
     BodyMesh, Contact, Damping, DirichletCondition, Drag, FibreDirections, FibreFamily, FibreLaw, ForceFields, Law,
     LoadCurve, Material, MaterialRegion, Method, Motion, NodalForce, PlaneState, Plasticity, Pressure, Refusal,
-    Selector, Spring, Traction, check_disjoint,
+    Selector, Spring, Traction, Volumetric, check_disjoint,
 };
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
@@ -87,10 +87,25 @@ impl Body {
         Ok(Self::of_shape(Shape { boundary: mesh.surface(), mesh, display: None, picture: None }, material))
     }
 
-    /// Returns true if a material averages the energy of the volume.
-    pub fn averages_volume(&self) -> bool {
+    /// Each material with its elements, the body's own first.
+    pub fn materials(&self) -> impl Iterator<Item = (&Material, Vec<usize>)> {
+        let mut is_own = vec![true; self.shape.mesh.elements()];
+        self.regions.iter().flat_map(|region| &region.elements).for_each(|&element| is_own[element] = false);
+        let own = (0..is_own.len()).filter(|&element| is_own[element]).collect();
+        let regions = self.regions.iter().map(|region| (&region.material, region.elements.clone()));
+        std::iter::once((&self.material, own)).chain(regions)
+    }
+
+    /// Returns true if pressures are unknowns beside the displacements in a part of the body.
+    pub fn has_pressures(&self) -> bool {
+        self.materials().any(|(material, _)| material.volumetric == Volumetric::Mixed)
+    }
+
+    /// The first material whose energy of the volume is not evaluated at each quadrature point: how it is.
+    pub fn volumetric(&self) -> Option<Volumetric> {
         let regions = self.regions.iter().map(|region| &region.material);
-        std::iter::once(&self.material).chain(regions).any(|material| material.averaged_volume().is_some())
+        let mut materials = std::iter::once(&self.material).chain(regions).map(|material| material.volumetric);
+        materials.find(|volumetric| *volumetric != Volumetric::Standard)
     }
 
     /// The same of a shape and a material that have been checked.

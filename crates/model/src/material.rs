@@ -85,7 +85,7 @@ macro_rules! law_parameters {
         $callback! {
             /// Young's modulus at small strain, Pa; positive.
             young,
-            /// Poisson's ratio at small strain, above −1 and below 0.5. Linear tetrahedra lock above 0.45, and a warning says so.
+            /// Poisson's ratio at small strain, above −1 and below 0.5, or 0.5 with `volumetric = "mixed"`. Linear tetrahedra lock above 0.45, and a warning says so.
             poisson,
             /// Neo-Hookean and Gent: half the shear modulus at small strain, Pa; positive.
             C,
@@ -209,7 +209,24 @@ pub enum Volumetric {
     /// At the mean of J = det F over a quadratic element, or over a patch of about eight linear ones: they lock far less. For the laws `linear`,
     /// `neo_hookean`, `hencky`, `mooney_rivlin`, `yeoh`, `gent` and `ogden`; not in plane stress. Engine only.
     Averaged,
+    /// By continuous pressures at the corners as unknowns beside the displacements: no element locks, and Poisson's ratio may be ½. For the same
+    /// laws, with `static`, `implicit_euler` and the implicit methods of second order. Engine only.
+    Mixed,
 }
+
+impl Volumetric {
+    /// The name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Averaged => "averaged",
+            Self::Mixed => "mixed",
+        }
+    }
+}
+
+/// Lamé's λ over μ of a material with Poisson's ratio ½: the volume changes by that part of the strain that pressures of the size of μ cause.
+const INCOMPRESSIBLE: f64 = 1e8;
 
 /// An energy of the volume, with the bulk modulus K.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -232,10 +249,11 @@ impl Elastic {
     }
 
     /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa. In plane stress, λ is that of the law after the strain across the
-    /// plane has been eliminated, 2λμ/(λ+2μ) = Eν/(1−ν²): Timoshenko and Goodier, Theory of Elasticity (1970), §15 f.
+    /// plane has been eliminated, 2λμ/(λ+2μ) = Eν/(1−ν²): Timoshenko and Goodier, Theory of Elasticity (1970), §15 f. With ν = ½, λ is 10⁸ μ.
     pub fn lame(self, plane: PlaneState) -> [f64; 2] {
         let Self { young: E, poisson: nu } = self;
         let lambda = match plane {
+            PlaneState::Strain if nu == 0.5 => INCOMPRESSIBLE * E / 3.0,
             PlaneState::Strain => E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
             PlaneState::Stress => E * nu / ((1.0 + nu) * (1.0 - nu)),
         };
@@ -248,6 +266,10 @@ impl NeoHookean {
     pub fn moduli(self) -> [f64; 2] {
         match self {
             Self::Moduli { C, D } => [C, D],
+            Self::Elastic(elastic @ Elastic { poisson: 0.5, .. }) => {
+                let [mu, lambda] = elastic.lame(PlaneState::Strain);
+                [0.5 * mu, 0.5 * lambda + mu / 3.0]
+            }
             Self::Elastic(Elastic { young: E, poisson: nu }) => [E / (4.0 * (1.0 + nu)), E / (6.0 * (1.0 - 2.0 * nu))],
         }
     }
@@ -453,10 +475,10 @@ impl Material {
         matches!(self.law, Law::MassSpring { .. })
     }
 
-    /// The energy of the volume, if it is averaged.
-    pub fn averaged_volume(&self) -> Option<VolumeEnergy> {
+    /// The energy of the volume, if it is evaluated in this way.
+    pub fn volume_energy(&self, volumetric: Volumetric) -> Option<VolumeEnergy> {
         let volume = Law::named(self.law.name()).and_then(|facts| facts.volume);
-        volume.filter(|_| self.volumetric == Volumetric::Averaged)
+        volume.filter(|_| self.volumetric == volumetric)
     }
 
     /// Returns true if linear tetrahedra lock: Poisson's ratio is above 0.45.
@@ -472,6 +494,12 @@ impl Material {
             let field = format!("{table}.{name}");
             match name {
                 "poisson" if value > -1.0 && value < 0.5 => {}
+                "poisson" if value == 0.5 && self.volumetric == Volumetric::Mixed => {}
+                "poisson" if value == 0.5 => {
+                    let problem = "is ½, with which the volume is held by pressures alone";
+                    let remedy = format!("write {table}.volumetric = \"mixed\", or a smaller ratio");
+                    return Err(Refusal::new(&field, format!("{problem}; {remedy}")));
+                }
                 "poisson" => {
                     return problem(&field, format!("is {value}; Poisson's ratio lies above -1 and below 0.5"));
                 }
@@ -496,19 +524,22 @@ impl Material {
         if self.volumetric == Volumetric::Standard {
             return Ok(());
         }
-        if self.averaged_volume().is_none() {
+        if self.volume_energy(self.volumetric).is_none() {
             let known: Vec<_> =
                 Law::FACTS.iter().filter(|facts| facts.volume.is_some()).map(|facts| facts.name).collect();
-            let (own, known) = (self.law.name(), known.join(", "));
+            let (how, own, known) = (self.volumetric.name(), self.law.name(), known.join(", "));
             let text =
-                format!("is \"averaged\", and `{own}` has no energy of the volume alone; take {known}, or remove it");
+                format!("is \"{how}\", and `{own}` has no energy of the volume alone; take {known}, or remove it");
             return problem(field, text);
         }
         match self.plane {
             PlaneState::Strain => Ok(()),
             PlaneState::Stress => problem(
                 field,
-                "is \"averaged\", and in plane stress nothing holds the volume and no element locks; remove it",
+                &format!(
+                    "is \"{}\", and in plane stress nothing holds the volume and no element locks; remove it",
+                    self.volumetric.name()
+                ),
             ),
         }
     }

@@ -1,6 +1,6 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
-use fem_model::{Body, DampingForm, Material, PlaneState};
+use fem_model::{Body, DampingForm, Material, PlaneState, Volumetric};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Solids;
@@ -46,24 +46,20 @@ impl<T: Float> Groups<T> {
             if let Some(fast) = &fast {
                 assert_eq!(fast.moduli(), law.moduli(), "the law is that of the body's material");
             }
-            let (moduli, is_averaged) = (law.moduli(), material.averaged_volume().is_some());
-            let fast = fast.map(|fast| SolidLaws::new(at_points(fast, is_averaged), is_in_plane));
-            let laws = SolidLaws::new(at_points(law, is_averaged), is_in_plane);
+            let (moduli, is_apart) = (law.moduli(), material.volumetric != Volumetric::Standard);
+            let fast = fast.map(|fast| SolidLaws::new(at_points(fast, is_apart), is_in_plane));
+            let laws = SolidLaws::new(at_points(law, is_apart), is_in_plane);
             Solid { laws, fast, elements, moduli, numbers }
         };
         let groups = if body.regions.is_empty() {
             vec![Solid { numbers: Vec::new(), ..group((law, &body.material), (0..count).collect()) }]
         } else {
-            let mut is_own = vec![true; count];
-            body.regions.iter().flat_map(|region| &region.elements).for_each(|&element| is_own[element] = false);
-            let own: Vec<usize> = (0..count).filter(|&element| is_own[element]).collect();
-            let own = (!own.is_empty()).then_some(((law, &body.material), own));
-            let regions = body.regions.iter().map(|region| {
-                let law = AnyLaw::new(&region.material);
-                let law = law.unwrap_or_else(|| unreachable!("a material without parameters is refused"));
-                ((law, &region.material), region.elements.clone())
-            });
-            own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
+            let of_region = |material: &Material| {
+                AnyLaw::new(material).unwrap_or_else(|| unreachable!("a material without parameters is refused"))
+            };
+            let laws = std::iter::once(law).chain(body.regions.iter().map(|region| of_region(&region.material)));
+            let groups = laws.zip(body.materials()).filter(|(_, (_, elements))| !elements.is_empty());
+            groups.map(|(law, (material, elements))| group((law, material), elements)).collect()
         };
         let count = count * points_per_element;
         let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, is_in_plane));
@@ -102,9 +98,9 @@ impl<T: Float> Groups<T> {
     }
 }
 
-/// The law of the elements: where the volume is averaged, the rest of its energy is a force of its own.
-fn at_points<L: Number>(law: AnyLaw<L>, is_averaged: bool) -> AnyLaw<L> {
-    if is_averaged { law.without_lambda().unwrap_or(law) } else { law }
+/// The law of the elements: where the volume is averaged or has pressures, the rest of its energy is a force of its own.
+fn at_points<L: Number>(law: AnyLaw<L>, is_apart: bool) -> AnyLaw<L> {
+    if is_apart { law.without_lambda().unwrap_or(law) } else { law }
 }
 
 impl<T: Float> Solids<T> for Groups<T> {

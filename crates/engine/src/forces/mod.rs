@@ -9,12 +9,14 @@ mod energy;
 mod fibres;
 mod hessian_kind;
 pub mod mass_spring;
+mod mixed_volume;
 mod points;
 mod potential;
 pub mod pressure;
 mod spring;
 pub mod springs;
 mod viscoelasticity;
+mod volume_change;
 
 use fem_model::simulation::History;
 use fem_model::{Body, Timer};
@@ -25,6 +27,7 @@ pub use energy::Energy;
 use fem_elements::Real;
 use fem_elements::sparse::Pattern;
 pub use hessian_kind::HessianKind;
+pub(crate) use mixed_volume::MixedVolume;
 pub use potential::{AddBlock, Barrier, Damped, Follower, InElements, Lagged, Moment, Potential, Remembering};
 
 /// A kind of force, which is built if the scene asks for it.
@@ -41,7 +44,7 @@ pub struct Kind<T: Real> {
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
 /// Every force that a scene can ask for; `[drag]` and the user's interaction are [`DragSprings`].
-pub fn kinds<T: Real>() -> [Kind<T>; 10] {
+pub fn kinds<T: Real>() -> [Kind<T>; 11] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
         Kind {
@@ -49,6 +52,7 @@ pub fn kinds<T: Real>() -> [Kind<T>; 10] {
             tables: "[material] with volumetric = \"averaged\"",
             build: averaged_volume::build,
         },
+        Kind { name: mixed_volume::NAME, tables: "[material] with volumetric = \"mixed\"", build: mixed_volume::build },
         Kind { name: fibres::NAME, tables: "[[fibres]]", build: fibres::build },
         Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
@@ -113,6 +117,11 @@ impl<T: Real> Forces<T> {
         nodes.sort_unstable();
         nodes.dedup();
         Some(nodes)
+    }
+
+    /// The energy of the volume whose pressures are unknowns beside the displacements.
+    pub fn mixed(&self) -> Option<&MixedVolume> {
+        self.potentials.iter().find_map(|(potential, _)| potential.mixed())
     }
 
     /// Prepares the assembly of matrices with a pattern.

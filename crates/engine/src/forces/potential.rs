@@ -5,7 +5,7 @@ use fem_model::simulation::History;
 use nalgebra::Matrix3;
 
 use super::spring::Spring;
-use super::{Energy, HessianKind};
+use super::{Energy, HessianKind, MixedVolume};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 
@@ -110,6 +110,11 @@ pub trait Potential<T: Real>: Send + Sync {
 
     /// Itself, if it is a stress within the elements.
     fn in_elements(&self) -> Option<&dyn InElements<T>> {
+        None
+    }
+
+    /// Itself, if pressures are unknowns beside the displacements.
+    fn mixed(&self) -> Option<&MixedVolume> {
         None
     }
 

@@ -7,7 +7,7 @@
 //! strain is the small one. A jump of the strain at one time is a sudden one, h₁ = h₀ + g (S₁ − S₀), as is that of a deformed initial state.
 
 use fem_model::simulation::History;
-use fem_model::{Body, Material, PronyTerm};
+use fem_model::{Body, Material, PronyTerm, Volumetric};
 use nalgebra::Matrix3;
 
 use super::points::Points;
@@ -79,7 +79,7 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
 /// The law at the points; where the volume is averaged, its λ has no viscosity.
 fn law(material: &Material) -> Option<AnyLaw<f64>> {
     let law = AnyLaw::new(material)?;
-    if material.averaged_volume().is_some() { law.without_lambda() } else { Some(law) }
+    if material.volumetric != Volumetric::Standard { law.without_lambda() } else { Some(law) }
 }
 
 impl Viscoelasticity {

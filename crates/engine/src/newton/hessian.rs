@@ -28,6 +28,9 @@ impl<T: Real> Newton<T> {
     ) -> Result<(), Cause> {
         w.fill([T::default(); 3]);
         self.forget();
+        if let Some(mixed) = potential.system.forces.mixed() {
+            return self.predict_with_pressures(potential, mixed, prescribed, w, counters);
+        }
         potential.linearized_gradient(prescribed, &mut self.gradient, &mut self.workspace);
         counters.force_assemblies += 1;
         self.prepare(potential, w, HessianKind::Exact, counters)?;

@@ -13,6 +13,7 @@ pub mod incremental_potential;
 mod lbfgs;
 mod limits;
 mod line_search;
+mod saddle_point;
 mod second_derivative;
 
 pub use limits::NewtonLimits;
@@ -28,6 +29,7 @@ use fem_elements::vector::{max_norm, norm};
 pub use incremental_potential::LastEvaluation;
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;
+use saddle_point::SaddlePoint;
 
 /// Convergence of the iteration of a step. A method without an iteration always converges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +44,8 @@ pub enum Convergence {
 pub struct Newton<T: Real> {
     limits: NewtonLimits,
     solver: Solver<T>,
+    /// The solver of a body with pressures, once it is needed.
+    saddle_point: Option<Box<SaddlePoint>>,
     values: Vec<Block<T, 3>>,
     lbfgs: Lbfgs<T>,
     workspace: Workspace<T>,
@@ -102,6 +106,7 @@ impl<T: Real> Newton<T> {
         Self {
             limits,
             solver,
+            saddle_point: None,
             values: vec![[[T::default(); 3]; 3]; blocks],
             lbfgs: Lbfgs::new(nodes),
             workspace: Workspace::new(nodes),
@@ -201,6 +206,9 @@ impl<T: Real> Newton<T> {
         w: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
+        if let Some(mixed) = potential.system.forces.mixed() {
+            return self.find_saddle_point(potential, mixed, energy, w, counters);
+        }
         self.factor =
             if self.factor == Factor::Stale || !self.serves(potential) { Factor::Stale } else { Factor::Kept };
         self.is_matrix_outdated = false;

@@ -2,7 +2,8 @@
 //! its remedy.
 
 use fem_model::{
-    Body, ContactTreatment, Integrator as IntegratorKind, Method, Motion, PlaneState, Refusal, SolverKind,
+    Body, ContactTreatment, Integrator as IntegratorKind, Method, Motion, PlaneState, Precision, Refusal, SolverKind,
+    Volumetric,
 };
 use nalgebra::Vector3;
 
@@ -28,6 +29,9 @@ fn refuse(rows: impl IntoIterator<Item = Row>) -> Result<(), Refusal> {
 pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
     let (name, follows) = (method.integrator.name(), method.arc_length);
     let solver = method.solver.as_ref();
+    let volumetric = body.volumetric();
+    let is_mixed = body.has_pressures();
+    let volume = volumetric.map_or("", Volumetric::name);
     let has_impulses = body.contact.as_ref().is_some_and(|contact| contact.treatment == ContactTreatment::Impulses);
     let moves = |motion: &Motion| motion.displacement != Vector3::zeros() || motion.rotation.is_some();
     let moved = body.dirichlet.iter().find(|condition| condition.motion.as_ref().is_some_and(moves));
@@ -47,9 +51,30 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
             ),
         ),
         (
-            method.integrator.is_iterated() && body.averages_volume(),
+            method.integrator.is_iterated() && volumetric.is_some(),
             "material.volumetric",
-            format!("is \"averaged\", which time.integrator = \"{name}\" does not know; remove it, or use implicit_euler"),
+            format!("is \"{volume}\", which time.integrator = \"{name}\" does not know; remove it, or use implicit_euler"),
+        ),
+        (
+            is_mixed && (!method.integrator.has_newton() || follows),
+            "material.volumetric",
+            format!(
+                "is \"mixed\", whose pressures Newton's method finds, and {} has none; write \"averaged\", or use \
+                 implicit_euler",
+                if follows { "static.arc_length" } else { name }
+            ),
+        ),
+        (
+            is_mixed && solver.is_some_and(|solver| solver.kind != SolverKind::Cholesky),
+            "solver.kind",
+            "is for displacements alone, and material.volumetric is \"mixed\"; remove [solver], or give \"cholesky\""
+                .to_owned(),
+        ),
+        (
+            is_mixed && method.precision == Precision::F32,
+            "time.precision",
+            "is \"f32\", in which pressures would have no digits; remove it, or write material.volumetric = \"averaged\""
+                .to_owned(),
         ),
         (
             !body.fields.viscosity.is_empty() && (body.plasticity.is_some() || body.material.is_mass_spring()),

@@ -47,6 +47,8 @@ pub(super) fn solver_choice(method: &Method, body: &Body) -> SolverChoice {
         // All rounds of all steps have the same matrix.
         _ if method.integrator == IntegratorKind::ProjectiveDynamics => SolverChoice::Cholesky,
         Some(settings) => settings.into(),
+        // The order of its rows is that of the factor with the pressures.
+        None if body.has_pressures() => SolverChoice::Cholesky,
         // Beyond a limit point the matrix is not positive definite.
         None if is_static && method.arc_length => SolverChoice::Lu,
         None if nodes <= if is_static { DIRECT.1 } else { DIRECT.0 } => SolverChoice::Cholesky,
@@ -132,7 +134,10 @@ impl<T: Real> Simulator<T> {
         let method = self.method.integrator;
         // Another treatment of obstacles would need other distances.
         let treatment = self.contact.as_ref().map(|_| method.facts().contact);
-        let is_usable = |kind: &IntegratorKind| treatment.is_none_or(|treatment| kind.facts().contact == treatment);
+        let has_pressures = self.system.forces.mixed().is_some();
+        let is_usable = |kind: &IntegratorKind| {
+            treatment.is_none_or(|treatment| kind.facts().contact == treatment) && (!has_pressures || kind.has_newton())
+        };
         let methods: Vec<_> = method.alternatives().into_iter().filter(is_usable).collect();
         self.kind = self.kind.next_in(&methods);
         let planes = self.contact.as_ref().map(|contact| contact.planes());

@@ -25,6 +25,7 @@ mod tests;
 pub use assembly::Assembly;
 pub use choice::{Preconditioner, SolverChoice};
 pub use device::{is_software as device_is_software, name as device_name};
+pub(crate) use direct::Ldlt;
 pub use solver::{Solver, SolverCounters};
 
 #[cfg(feature = "gpu")]

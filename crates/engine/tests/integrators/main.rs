@@ -6,7 +6,6 @@
 mod adaptive;
 mod affine;
 mod arc_length;
-mod averaged_volume;
 mod balance;
 mod bars;
 mod cantilever;
@@ -53,6 +52,7 @@ mod unconverged;
 mod vertex_block_descent;
 mod vibrations;
 mod viscosity;
+mod volumetric;
 mod work;
 
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! The energy of the volume averaged over patches: its derivatives, affine states, and what it is for, bodies that hardly change their volume.
+//! The energy of the volume averaged over patches, or with pressures as unknowns: derivatives, affine states, and bodies that hardly change their
+//! volume or do not change it at all.
 
 use std::path::Path;
 
@@ -8,12 +9,12 @@ use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::SolverChoice;
 use fem_mesh::{Pattern, rectangle_mesh};
 use fem_model::simulation::Simulation;
-use fem_model::{Axis, Body, BodyMesh, Integrator, Law, Material, Method, NeoHookean, Selector, Volumetric};
+use fem_model::{Axis, Body, BodyMesh, Elastic, Integrator, Law, Material, Method, NeoHookean, Selector, Volumetric};
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::flat::{affine, flat};
-use crate::{SECOND_ORDER, block, build, distance, of_law, run, scene, soft, try_build};
+use crate::{SECOND_ORDER, block, build, distance, of_law, run, scene, side, soft, symmetry, try_build};
 
 /// The laws that have an energy of the volume.
 fn laws() -> impl Iterator<Item = &'static str> {
@@ -21,7 +22,15 @@ fn laws() -> impl Iterator<Item = &'static str> {
 }
 
 fn averaged(text: &str) -> String {
-    text.replace("density = 1000.0", "density = 1000.0\nvolumetric = \"averaged\"")
+    with_volume("averaged", text)
+}
+
+fn mixed(text: &str) -> String {
+    with_volume("mixed", text)
+}
+
+fn with_volume(volumetric: &str, text: &str) -> String {
+    text.replace("density = 1000.0", &format!("density = 1000.0\nvolumetric = \"{volumetric}\""))
 }
 
 fn quadratic(text: &str) -> String {
@@ -101,11 +110,14 @@ fn matrix_times(system: &System, u: &[[f64; 3]], d: &[[f64; 3]]) -> Vec<[f64; 3]
 
 #[test]
 fn projected_stiffness_has_no_negative_energy_where_the_exact_one_has() {
-    let text = averaged(&of_law("hencky", &soft("static", 1.0, "")));
+    let text = of_law("hencky", &soft("static", 1.0, ""));
     let mut is_indefinite = false;
-    for text in with_elements(&text) {
+    let (patches, pressures) = (with_elements(&averaged(&text)), with_elements(&mixed(&text)));
+    for (text, size) in
+        patches.into_iter().map(|text| (text, 0.12)).chain(pressures.into_iter().map(|text| (text, 0.04)))
+    {
         let system = system(&text);
-        let u = field(&system, 0.12, 0.3);
+        let u = field(&system, size, 0.3);
         for phase in (0..40).map(f64::from) {
             let d = field(&system, 1.0, phase);
             let [exact, projected] = [HessianKind::Exact, HessianKind::Projected].map(|kind| {
@@ -147,23 +159,25 @@ fn a_free_body_has_no_motion_without_energy_but_rigid_ones() {
 }
 
 #[test]
-fn an_affine_state_has_the_energy_and_the_stress_of_elements_that_do_not_average() {
+fn an_affine_state_has_the_energy_and_the_stress_of_elements_in_the_standard_form() {
     let G = [[0.08, 0.05], [-0.02, -0.03]];
     let linear = rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap();
     let mesh = BodyMesh::flat(linear.clone(), 0.3).of_order(2).unwrap().mesh::<6>().unwrap();
     for model in laws() {
         let texts = [flat(&block(model, &affine(&linear, G))), quadratic(&flat(&block(model, &affine(&mesh, G))))];
         for text in texts {
-            let [standard, patches] = [text.clone(), averaged(&text)].map(|text| {
+            let [standard, patches, pressures] = [text.clone(), averaged(&text), mixed(&text)].map(|text| {
                 let mut simulation = build(&text);
                 run(&mut *simulation, 1);
                 simulation
             });
-            assert!(distance(&standard.positions(), &patches.positions()) < 1e-11, "{text}");
-            let [found, expected] = [&patches, &standard].map(|simulation| simulation.energies().potential);
-            assert!((found - expected).abs() < 1e-11 * expected, "{found} {expected}\n{text}");
-            let [found, expected] = [&patches, &standard].map(|simulation| simulation.stresses_at_points()[7]);
-            assert!((found - expected).amax() < 1e-9 * expected.amax(), "{found} {expected}\n{text}");
+            for other in [patches, pressures] {
+                assert!(distance(&standard.positions(), &other.positions()) < 1e-11, "{text}");
+                let [found, expected] = [&other, &standard].map(|simulation| simulation.energies().potential);
+                assert!((found - expected).abs() < 1e-11 * expected, "{found} {expected}\n{text}");
+                let [found, expected] = [&other, &standard].map(|simulation| simulation.stresses_at_points()[7]);
+                assert!((found - expected).amax() < 1e-9 * expected.amax(), "{found} {expected}\n{text}");
+            }
         }
     }
 }
@@ -196,13 +210,18 @@ fn a_nearly_incompressible_cantilever_no_longer_locks() {
 /// The vertical displacement of the upper corner of Cook's membrane, plane strain, κ/μ = 5000, m: J. C. Simo and F. Armero, Geometrically Non-linear
 /// Enhanced Strain Mixed Methods and the Method of Incompatible Modes (1992).
 fn cook(order: usize, pattern: Pattern, volumetric: Volumetric) -> f64 {
+    let law = Law::NeoHookean(NeoHookean::Moduli { C: 40.0969, D: 200_471.6 });
+    cook_of(law, order, pattern, volumetric).0
+}
+
+/// The same of a law, and the number of Newton's iterations.
+fn cook_of(law: Law, order: usize, pattern: Pattern, volumetric: Volumetric) -> (f64, usize) {
     let mut mesh = rectangle_mesh([1.0, 1.0], 16, pattern).unwrap();
     for x in &mut mesh.vertices {
         let [s, t] = [x.x, x.y];
         *x = Vector3::new(48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s), 0.0);
     }
     let corner = (0..mesh.vertices.len()).max_by(|a, b| mesh.vertices[*a].y.total_cmp(&mesh.vertices[*b].y)).unwrap();
-    let law = Law::NeoHookean(NeoHookean::Moduli { C: 40.0969, D: 200_471.6 });
     let material = Material { volumetric, ..Material::new(law, 1.0) };
     let body = Body::new(BodyMesh::flat(mesh, 1.0).of_order(order).unwrap(), material).unwrap();
     let body = body.fix(&Selector::least(Axis::X)).unwrap();
@@ -210,7 +229,7 @@ fn cook(order: usize, pattern: Pattern, volumetric: Volumetric) -> f64 {
     let method = Method { load_steps: 8, ..Method::new(Integrator::Static, 1.0) };
     let mut simulation = fem_engine::simulator::build(body, &method).unwrap();
     run(&mut *simulation, 8);
-    simulation.positions()[3 * corner + 1] - 60.0
+    (simulation.positions()[3 * corner + 1] - 60.0, simulation.counters().newton_iterations)
 }
 
 #[test]
@@ -227,11 +246,14 @@ fn cooks_membrane_reaches_its_published_deflection_whichever_way_the_cells_are_c
 }
 
 #[test]
-fn bodies_that_average_keep_their_energy_and_their_angular_momentum_in_motion() {
+fn bodies_whose_volume_stands_apart_keep_their_energy_and_their_angular_momentum_in_motion() {
     let moving = "[[initial_velocity]]\nvelocity = [0, 0, 0]\nangular = { axis = [0, 0, 1], rate = 2.0 }\n";
     for integrator in SECOND_ORDER.into_iter().chain(["verlet", "implicit_euler", "linearly_implicit_euler"]) {
-        let text = averaged(&of_law("neo_hookean", &soft(integrator, 2e-3, moving)));
-        for text in [text.clone(), quadratic(&text)] {
+        let text = of_law("neo_hookean", &soft(integrator, 2e-3, moving));
+        let kinds = if integrator == "verlet" || integrator == "linearly_implicit_euler" { 1 } else { 2 };
+        for text in
+            [averaged(&text), mixed(&text)].into_iter().take(kinds).flat_map(|text| [text.clone(), quadratic(&text)])
+        {
             let mut simulation = build(&text);
             let (start, spin) = (simulation.energies().total(), angular_momentum(&*simulation));
             run(&mut *simulation, 50);
@@ -275,4 +297,104 @@ fn laws_without_an_energy_of_the_volume_and_methods_in_sweeps_are_refused_with_t
 fn try_build_error(text: &str) -> String {
     let parsed = fem_scene::parse(text, Path::new("folder/name.toml")).map(|_| ());
     parsed.and_then(|()| try_build(text).map(|_| ())).expect_err(text).to_string()
+}
+
+#[test]
+fn forces_of_pressures_are_the_derivative_of_the_energy_with_every_element() {
+    for text in laws().flat_map(|model| with_elements(&mixed(&block(model, "")))) {
+        let system = system(&text);
+        let (u, d, moment, h) = (field(&system, 0.04, 0.3), field(&system, 1.0, 2.0), Moment::at(0.0), 1e-6);
+        let mut gradient = vec![[0.0; 3]; system.nodes()];
+        double::gradient(&system, &u, moment, &mut gradient);
+        let [above, below] = [h, -h].map(|h| double::potential(&system, &sum(&u, h, &d), moment).value);
+        let (slope, by_differences) = (dot(&gradient, &d), (above - below) / (2.0 * h));
+        assert!((slope - by_differences).abs() < 1e-6 * slope.abs(), "{slope} {by_differences}\n{text}");
+    }
+}
+
+#[test]
+fn an_incompressible_bar_has_the_stress_and_the_volume_of_the_closed_form() {
+    let stretch = 1.8;
+    let pull = symmetry() + &side("x", "max", 2.0 * (stretch - 1.0));
+    let text = format!("[static]\nload_steps = 4\n[newton]\ntolerance = 1e-12\n{pull}");
+    let text = mixed(&of_law("neo_hookean", &soft("static", 1.0, &text))).replace("poisson = 0.3", "poisson = 0.5");
+    for text in [text.clone(), quadratic(&text)] {
+        let mut simulation = build(&text);
+        run(&mut *simulation, 4);
+        // Cauchy stress μ (λ² − 1/λ) with μ = E/3: Ogden, Non-Linear Elastic Deformations (1984), section 4.3.
+        let expected = 1e5 / 3.0 * (stretch * stretch - 1.0 / stretch);
+        for stress in simulation.stresses_at_points() {
+            assert!((stress[(0, 0)] - expected).abs() < 1e-6 * expected, "{stress} {expected}");
+            assert!(stress[(1, 1)].abs() < 1e-6 * expected && stress[(2, 2)].abs() < 1e-6 * expected, "{stress}");
+        }
+        let q = simulation.positions();
+        let width = (0..q.len() / 3).map(|node| q[3 * node + 1]).fold(0.0, f64::max);
+        assert!((width - 1.0 / f64::sqrt(stretch)).abs() < 1e-7, "{width}");
+    }
+}
+
+#[test]
+fn an_incompressible_body_that_bends_keeps_its_volume_and_its_reactions_carry_the_load() {
+    let tables = "[static]\nload_steps = 3\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n\
+                  [[traction]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\nforce_per_area = [0, 0, -2e3]\n";
+    let text = mixed(&of_law("neo_hookean", &soft("static", 1.0, tables))).replace("poisson = 0.3", "poisson = 0.5");
+    for text in [text.clone(), quadratic(&text)] {
+        let text = text.replace("cells_per_unit = 1", "cells_per_unit = 2");
+        let mut simulation = build(&text);
+        run(&mut *simulation, 3);
+        let reaction = simulation.reactions()[0].force;
+        assert!((reaction[2] - 2e3).abs() < 1e-6 * 2e3, "{reaction:?}");
+        let (mesh, q) = (&simulation.shape().mesh, simulation.positions());
+        let at = |node: usize| q.fixed_rows::<3>(3 * node).into_owned();
+        let drop = (0..q.len() / 3).map(|node| 1.0 - at(node).z).fold(0.0, f64::max);
+        assert!(drop > 0.1, "{drop}");
+        if mesh.element().order == 1 {
+            let of = |x: &[usize]| {
+                let [a, b, c] = [1, 2, 3].map(|k| at(x[k]) - at(x[0]));
+                a.dot(&b.cross(&c)) / 6.0
+            };
+            let volume: f64 = mesh.corners().map(of).sum();
+            assert!((volume - 2.0).abs() < 1e-7, "{volume}");
+        }
+    }
+}
+
+#[test]
+fn cooks_membrane_with_pressures_takes_a_few_iterations_a_step_also_where_it_is_incompressible() {
+    let reference = 6.93;
+    let incompressible = |order, pattern| {
+        let law = Law::NeoHookean(NeoHookean::Elastic(Elastic::new(3.0 * 80.1938, 0.5)));
+        cook_of(law, order, pattern, Volumetric::Mixed)
+    };
+    for pattern in [Pattern::Kuhn, Pattern::Alternating] {
+        let (tip, iterations) = incompressible(2, pattern);
+        assert!((tip - reference).abs() < 0.01 * reference && iterations <= 48, "{pattern:?}: {tip} {iterations}");
+        let (tip, iterations) = incompressible(1, pattern);
+        assert!((tip - reference).abs() < 0.09 * reference && iterations <= 48, "{pattern:?}: {tip} {iterations}");
+    }
+}
+
+#[test]
+fn an_incompressible_cantilever_bends_as_one_that_is_nearly_so() {
+    let [nearly, held] = [0.4999, 0.5].map(|poisson| cantilever(2, 3, poisson, "mixed"));
+    assert!((nearly - held).abs() < 1e-3 && (0.96..0.98).contains(&held), "{nearly} {held}");
+    let [nearly, held] = [0.4999, 0.5].map(|poisson| cantilever(1, 3, poisson, "mixed"));
+    assert!((nearly - held).abs() < 1e-3 && held > 0.72, "{nearly} {held}");
+}
+
+#[test]
+fn pressures_refuse_methods_and_solvers_that_do_not_know_them_with_the_remedy() {
+    let text = mixed(&of_law("neo_hookean", &soft("verlet", 1e-4, "")));
+    let message = try_build_error(&text);
+    assert!(message.contains("material.volumetric is \"mixed\"") && message.contains("implicit_euler"), "{message}");
+    let message = try_build_error(&mixed(&soft("implicit_euler", 1e-3, "[solver]\nkind = \"pcg\"\n")));
+    assert!(message.contains("solver.kind") && message.contains("give \"cholesky\""), "{message}");
+    let single = soft("implicit_euler", 1e-3, "").replace("dt =", "precision = \"f32\"\ndt =");
+    let message = try_build_error(&mixed(&single));
+    assert!(message.contains("time.precision"), "{message}");
+    for form in ["standard", "averaged"] {
+        let text = of_law("neo_hookean", &soft("static", 1.0, "")).replace("poisson = 0.3", "poisson = 0.5");
+        let message = try_build_error(&with_volume(form, &text));
+        assert!(message.contains("write material.volumetric = \"mixed\""), "{message}");
+    }
 }

@@ -60,7 +60,7 @@ fn unknown(body: &Body, method: &Method) -> Option<Unknown> {
     let keys: [(&'static str, bool, &'static str, &'static str); 22] = [
         ("mesh", body.shape.mesh.dimension() == 2, "is a flat body", "take tetrahedra"),
         ("mesh.order", body.shape.mesh.element().order != 1, "makes quadratic elements", "write 1"),
-        ("material.volumetric", body.averages_volume(), "averages the volume of patches", "remove it"),
+        ("material.volumetric", body.volumetric().is_some(), "does not act at each quadrature point", "remove it"),
         ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
         ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
         ("fibres", !body.fibres.is_empty(), "are forces within elements", "remove the tables"),

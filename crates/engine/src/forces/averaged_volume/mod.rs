@@ -15,11 +15,14 @@ mod patches;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use fem_model::{Body, Material, VolumeEnergy};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use fem_model::{Body, Material, VolumeEnergy, Volumetric};
+use nalgebra::{Matrix3, Vector3};
 
 use super::points::shape_gradients;
 use super::potential::add_block;
+use super::volume_change::{
+    add, change, cofactor, contracted, cross, of_matrix, projected_second_derivative, second_derivative,
+};
 use super::{AddBlock, Energy, HessianKind, InElements, Moment, Potential};
 use crate::numbering::Numbering;
 use fem_elements::Real;
@@ -93,10 +96,6 @@ struct Mean {
 /// The energy of the volume of a body; `None` if no material averages it.
 pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
     let mesh = &body.shape.mesh;
-    let mut is_own = vec![true; mesh.elements()];
-    body.regions.iter().flat_map(|region| &region.elements).for_each(|&element| is_own[element] = false);
-    let own: Vec<usize> = (0..mesh.elements()).filter(|&element| is_own[element]).collect();
-    let regions = body.regions.iter().map(|region| (&region.material, &region.elements[..]));
     let mut volume = AveragedVolume {
         patches: Vec::new(),
         points: Vec::new(),
@@ -107,17 +106,25 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
         room: Mutex::default(),
     };
     let volumes = mesh.volumes();
-    for (material, elements) in std::iter::once((&body.material, &own[..])).chain(regions) {
-        for patch in material.averaged_volume().map_or(Vec::new(), |_| patches(mesh, elements)) {
-            volume.add_patch(body, material, &patch, &volumes, numbering);
+    for (material, elements) in body.materials() {
+        let Some(energy) = material.volume_energy(Volumetric::Averaged) else { continue };
+        for patch in patches(mesh, &elements) {
+            volume.add_patch(body, (material, energy), &patch, &volumes, numbering);
         }
     }
     if volume.patches.is_empty() { None } else { Some(Box::new(volume)) }
 }
 
 impl AveragedVolume {
-    fn add_patch(&mut self, body: &Body, material: &Material, of: &[usize], volumes: &[f64], numbering: &Numbering) {
-        let (mesh, Some(energy)) = (&body.shape.mesh, material.averaged_volume()) else { return };
+    fn add_patch(
+        &mut self,
+        body: &Body,
+        (material, energy): (&Material, VolumeEnergy),
+        of: &[usize],
+        volumes: &[f64],
+        numbering: &Numbering,
+    ) {
+        let mesh = &body.shape.mesh;
         let bulk = |law: AnyLaw<f64>| law.moduli()[1];
         let law = AnyLaw::<f64>::new(material);
         let Some((whole, kept)) = law.and_then(|law| Some((bulk(law), bulk(law.without_lambda()?)))) else { return };
@@ -228,11 +235,9 @@ impl AveragedVolume {
 impl Patch {
     /// θ at a point: J − 1 without the loss of digits near rest, or tr G.
     fn change(&self, G: &Matrix3<f64>) -> f64 {
-        let trace = G.trace();
         match self.energy {
-            VolumeEnergy::Trace => trace,
-            // The sum of the principal minors of second order is (tr(G)² − tr(G²))/2.
-            _ => trace + 0.5 * (trace * trace - (G * G).trace()) + G.determinant(),
+            VolumeEnergy::Trace => G.trace(),
+            _ => change(G),
         }
     }
 
@@ -373,50 +378,5 @@ impl<T: Real> InElements<T> for AveragedVolume {
                 stresses[point.number] += Matrix3::from_diagonal_element(mean.pressure);
             }
         });
-    }
-}
-
-/// cof F = ∂J/∂F
-fn cofactor(F: &Matrix3<f64>) -> Matrix3<f64> {
-    let [a, b, c] = [0, 1, 2].map(|k| F.column(k).into_owned());
-    Matrix3::from_columns(&[b.cross(&c), c.cross(&a), a.cross(&b)])
-}
-
-/// The derivative of cof F along A, which is the tensor cross product of both.
-fn cross(A: &Matrix3<f64>, F: &Matrix3<f64>) -> Matrix3<f64> {
-    cofactor(&(F + A)) - cofactor(F) - cofactor(A)
-}
-
-/// The derivative of (cof F) a by displacements with the gradient b: −[F (a × b)]×.
-fn second_derivative(F: &Matrix3<f64>, a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
-    -(F * a.cross(b)).cross_matrix()
-}
-
-/// `factor` ∂²J/∂F² with its negative eigenvalues raised to zero; the entry F_ij has the number 3 i + j.
-fn projected_second_derivative(F: &Matrix3<f64>, factor: f64) -> SMatrix<f64, 9, 9> {
-    let mut H = SMatrix::<f64, 9, 9>::zeros();
-    for column in 0..9 {
-        let mut unit = Matrix3::zeros();
-        unit[(column / 3, column % 3)] = factor;
-        let derivative = cross(&unit, F);
-        (0..9).for_each(|row| H[(row, column)] = derivative[(row / 3, row % 3)]);
-    }
-    let mut eigen = H.symmetric_eigen();
-    eigen.eigenvalues.iter_mut().for_each(|value| *value = value.max(0.0));
-    eigen.recompose()
-}
-
-/// Σ a_j H_(ij)(kl) b_l
-fn contracted(H: &SMatrix<f64, 9, 9>, a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
-    Matrix3::from_fn(|i, k| (0..3).map(|j| (0..3).map(|l| a[j] * H[(3 * i + j, 3 * k + l)] * b[l]).sum::<f64>()).sum())
-}
-
-fn of_matrix<T: Real>(block: &Matrix3<f64>) -> Block<T, 3> {
-    std::array::from_fn(|i| std::array::from_fn(|j| T::of(block[(i, j)])))
-}
-
-fn add<T: Real>(sum: &mut [T; 3], x: Vector3<f64>) {
-    for i in 0..3 {
-        sum[i] += T::of(x[i]);
     }
 }

@@ -2,12 +2,12 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky, supernodal::SupernodalLltRef,
 };
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::csc::CscMatrix;
@@ -35,14 +35,14 @@ impl<T: Real> FaerCholesky<T> {
     /// Symbolic factorisation in the order of the rows; `pattern` stores the lower half.
     pub(super) fn new(pattern: &Pattern) -> Self {
         let matrix = CscMatrix::new(pattern);
-        let symbolic = symbolic_factor(&matrix, SymmetricOrdering::Identity);
+        let symbolic = symbolic_factor(matrix.symbolic(), SymmetricOrdering::Identity);
         Self::with_symbolic(matrix, symbolic, threads(pattern))
     }
 
     /// The same in a fill-reducing order, for rows in another one. Returns an error if the factor would take more than `limit` bytes.
     pub(crate) fn reordered(pattern: &Pattern, limit: Option<usize>) -> Result<Self, Breakdown> {
         let matrix = CscMatrix::new(pattern);
-        let symbolic = symbolic_factor(&matrix, SymmetricOrdering::Amd).ok_or(Breakdown::TooLarge)?;
+        let symbolic = symbolic_factor(matrix.symbolic(), SymmetricOrdering::Amd).ok_or(Breakdown::TooLarge)?;
         let threads = threads(pattern);
         let bytes = symbolic.len_val() * size_of::<T>() + scratch::<T>(&symbolic, threads).size_bytes();
         if limit.is_some_and(|limit| bytes > limit) {
@@ -111,15 +111,16 @@ impl<T: Real> ApproximateInverse<T> for FaerCholesky<T> {
     }
 }
 
-fn symbolic_factor<T: Real>(
-    matrix: &CscMatrix<T>,
+/// Analyses the lower half of a matrix; `None` if the factor would not fit into memory.
+pub(super) fn symbolic_factor(
+    lower: SymbolicSparseColMatRef<'_, u32>,
     ordering: SymmetricOrdering<'_, u32>,
 ) -> Option<SymbolicCholesky<u32>> {
     let supernodal = CholeskySymbolicParams {
         supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
         ..Default::default()
     };
-    let upper = matrix.symbolic().to_row_major().ok()?;
+    let upper = lower.to_row_major().ok()?;
     factorize_symbolic_cholesky(upper.transpose(), Side::Upper, ordering, supernodal).ok()
 }
 

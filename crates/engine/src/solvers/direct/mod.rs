@@ -2,6 +2,7 @@
 
 mod csc;
 mod faer_cholesky;
+mod ldlt;
 mod lu;
 mod single;
 mod supernodal;
@@ -10,6 +11,7 @@ mod supernodal;
 mod tests;
 
 pub(crate) use faer_cholesky::FaerCholesky;
+pub(crate) use ldlt::Ldlt;
 pub(crate) use lu::Lu;
 pub(crate) use supernodal::SupernodalCholesky;
 
