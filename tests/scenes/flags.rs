@@ -129,7 +129,7 @@ fn explain_lists_the_parts_that_a_scene_leaves_out() {
 fn explain_lists_every_part_of_every_engine_scene_with_its_reason() {
     let all = [
         "mesh material state mass forces dead_load fixed prescribed springs pressure damping drag stiffness projection",
-        "solver preconditioner line_search skinning reactions contact friction plasticity mass_spring averaged_volume central_gravity viscosity fibres",
+        "solver preconditioner line_search skinning reactions contact friction plasticity mass_spring averaged_volume mixed_volume central_gravity viscosity fibres",
     ];
     let mut all: Vec<_> = all.iter().flat_map(|line| line.split(' ')).collect();
     all.sort_unstable();

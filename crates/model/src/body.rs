@@ -96,6 +96,11 @@ impl Body {
         std::iter::once((&self.material, own)).chain(regions)
     }
 
+    /// Returns true if a part of the body has Poisson's ratio ½.
+    pub fn is_incompressible(&self) -> bool {
+        self.has_pressures() && self.materials().any(|(material, _)| material.law.poissons_ratio() == Some(0.5))
+    }
+
     /// Returns true if pressures are unknowns beside the displacements in a part of the body.
     pub fn has_pressures(&self) -> bool {
         self.materials().any(|(material, _)| material.volumetric == Volumetric::Mixed)

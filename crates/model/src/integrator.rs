@@ -78,6 +78,8 @@ pub struct Facts {
     pub is_symplectic: bool,
     /// Treatment of obstacles; `None` for a method that cannot keep a body outside.
     pub contact: Option<ContactTreatment>,
+    /// True if forces are balanced at a moment within the step alone, and not at its end.
+    pub is_balanced_within_step: bool,
 }
 
 /// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
@@ -99,7 +101,19 @@ impl Integrator {
             is_symplectic: bool,
             contact: Option<ContactTreatment>,
         ) -> Facts {
-            Facts { name, label, family, order, stability_limit: None, is_symplectic, contact }
+            Facts {
+                name,
+                label,
+                family,
+                order,
+                stability_limit: None,
+                is_symplectic,
+                contact,
+                is_balanced_within_step: false,
+            }
+        }
+        const fn balanced_within_step(facts: Facts) -> Facts {
+            Facts { is_balanced_within_step: true, ..facts }
         }
         /// Hairer, Lubich and Wanner, Geometric Numerical Integration (2006), ch. I; Hairer and Wanner, Solving Ordinary Differential
         /// Equations II (1996), ch. IV.2.
@@ -128,12 +142,26 @@ impl Integrator {
             (Self::ImplicitEuler, facts("implicit_euler", "implicit Euler", Newton, Some(1), false, Some(Barrier))),
             (
                 Self::ImplicitMidpoint,
-                facts("implicit_midpoint", "implicit midpoint", Newton, Some(2), true, Some(Barrier)),
+                balanced_within_step(facts(
+                    "implicit_midpoint",
+                    "implicit midpoint",
+                    Newton,
+                    Some(2),
+                    true,
+                    Some(Barrier),
+                )),
             ),
             (Self::Newmark, facts("newmark", "Newmark", Newton, Some(2), false, Some(Barrier))),
             (
                 Self::GeneralizedAlpha,
-                facts("generalized_alpha", "generalized-α", Newton, Some(2), false, Some(Barrier)),
+                balanced_within_step(facts(
+                    "generalized_alpha",
+                    "generalized-α",
+                    Newton,
+                    Some(2),
+                    false,
+                    Some(Barrier),
+                )),
             ),
             (Self::Bdf2, facts("bdf2", "BDF2", Newton, Some(2), false, Some(Barrier))),
             (Self::Bathe, facts("bathe", "Bathe", Newton, Some(2), false, None)),

@@ -29,7 +29,7 @@ fn locking(body: &Body) -> impl Iterator<Item = String> {
         let [kind, figures] = body.shape.mesh.element().locking?;
         Some(format!(
             "{table}: Poisson's ratio is {poisson:.4}, and linear {kind} lock near ½{figures}; take quadratic ones \
-             (mesh.order = 2) or average the volume ({table}.volumetric = \"averaged\"), both of which the engine has, refine the mesh until the result stays, or take a ratio of 0.45 or less"
+             (mesh.order = 2) or average the volume ({table}.volumetric = \"averaged\", or \"mixed\"), both of which the engine has, refine the mesh until the result stays, or take a ratio of 0.45 or less"
         ))
     };
     materials.filter_map(warning)

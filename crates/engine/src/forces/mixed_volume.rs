@@ -25,6 +25,9 @@ use fem_elements::materials::AnyLaw;
 /// Key in the statistics.
 pub const NAME: &str = "mixed_volume";
 
+/// Relative residual of the pressures that displacements cause.
+const ROUNDING: f64 = 1e-14;
+
 /// The energy of the volume of a body, or of the parts of it whose material has pressures.
 pub struct MixedVolume {
     points: Points,
@@ -107,7 +110,8 @@ impl MixedVolume {
         let (places, entries): (Vec<_>, Vec<_>) = elements.iter().flat_map(Element::compliance_entries).unzip();
         let mut compliance = Ldlt::new(nodes.len(), &places);
         // Moduli that make it anything but positive definite are refused.
-        compliance.prepare(entries.into_iter()).ok()?;
+        compliance.set(entries.into_iter());
+        compliance.factor().ok()?;
         Some(Self {
             points: Points::new(mesh, numbering),
             shape: mesh.element().points,
@@ -139,7 +143,7 @@ impl MixedVolume {
     /// The pressures that displacements cause, Pa.
     pub fn pressures_of<T: Real>(&self, u: &[[T; 3]]) -> Vec<f64> {
         let mut pressures = self.weighted_theta(u);
-        self.compliance.lock().unwrap_or_else(PoisonError::into_inner).solve(&mut pressures);
+        self.compliance.lock().unwrap_or_else(PoisonError::into_inner).solve(&mut pressures, ROUNDING);
         pressures
     }
 

@@ -21,6 +21,7 @@ pub use limits::NewtonLimits;
 use fem_model::simulation::{Cause, Counters, History};
 
 use crate::forces::{Energy, HessianKind};
+use crate::model::system::System;
 use crate::solvers::Solver;
 use fem_elements::Real;
 use fem_elements::history::{put, put_flag, put_option, take, take_flag, take_option};
@@ -44,7 +45,7 @@ pub enum Convergence {
 pub struct Newton<T: Real> {
     limits: NewtonLimits,
     solver: Solver<T>,
-    /// The solver of a body with pressures, once it is needed.
+    /// The solver of a body with pressures.
     saddle_point: Option<Box<SaddlePoint>>,
     values: Vec<Block<T, 3>>,
     lbfgs: Lbfgs<T>,
@@ -123,6 +124,14 @@ impl<T: Real> Newton<T> {
         }
     }
 
+    /// The same with pressures as unknowns; `None` if the body has none.
+    pub fn with_pressures(limits: NewtonLimits, system: &System<T>) -> Option<Self> {
+        let saddle_point = Box::new(SaddlePoint::new(system, system.forces.mixed()?));
+        let solver = Solver::in_place_of(&system.pattern, saddle_point.bytes());
+        let newton = Self::new(limits, solver, system.nodes(), system.pattern.blocks());
+        Some(Self { saddle_point: Some(saddle_point), ..newton })
+    }
+
     /// Drops the kept factor: a parameter or the state has changed.
     pub fn forget(&mut self) {
         (self.factor, self.inertia_of_hessian) = (Factor::Stale, None);
@@ -136,6 +145,7 @@ impl<T: Real> Newton<T> {
         put_flag(history, "newton.is_matrix_kept", is_kept);
         put_option(history, "newton.first_iterations", first_iterations.map(|count| count as f64));
         put_flag(history, "newton.is_new_preconditioner", self.is_new_preconditioner);
+        self.saddle_point.iter().for_each(|saddle_point| saddle_point.save(history));
         self.solver.save(is_kept || first_iterations.is_some(), history);
         if is_kept {
             put_option(history, "newton.inertia", self.inertia_of_hessian.map(|inertia| inertia.as_f64()));
@@ -154,6 +164,7 @@ impl<T: Real> Newton<T> {
         // No solve takes more iterations than fit into 32 bits.
         self.first_iterations = first_iterations.map(|count| count as u32 as usize);
         self.is_new_preconditioner = take_flag(history, "newton.is_new_preconditioner")?;
+        self.saddle_point.as_mut().map_or(Ok(()), |saddle_point| saddle_point.restore(history))?;
         self.solver.restore(is_kept || first_iterations.is_some(), history)?;
         if is_kept {
             take(history, "newton.values", self.values.as_flattened_mut().as_flattened_mut())?;

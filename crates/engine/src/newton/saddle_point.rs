@@ -5,22 +5,23 @@
 //! ones, L + ρ/2 |∫ N θ − C p|², decreases along d: its slope is −dᵀ A d − ρ |B d|².
 
 use fem_model::Projection;
-use fem_model::simulation::{Breakdown, Cause, Counters};
+use fem_model::simulation::{Breakdown, Cause, Counters, History};
 
 use super::incremental_potential::IncrementalPotential;
-use super::{Convergence, Factor, Iterate, Newton};
+use super::{Convergence, Iterate, Newton};
 use crate::forces::{Energy, HessianKind, MixedVolume};
 use crate::model::system::System;
 use crate::solvers::Ldlt;
 use fem_elements::Real;
+use fem_elements::history::{put, put_flag, take, take_flag};
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::{dot, max_norm, norm};
 
 /// Largest volume that may be left at a corner, relative to its own: rounding error of the displacements times a few.
 const LEFT: f64 = 1e-12;
 
-/// Largest relative residual of the linear equations.
-const RESIDUAL: f64 = 1e-6;
+/// Relative residual of the linear equations.
+const RESIDUAL: f64 = 1e-7;
 
 /// The matrix of displacements and pressures, and its factor.
 pub(super) struct SaddlePoint {
@@ -37,10 +38,13 @@ pub(super) struct SaddlePoint {
     /// Unit of the pressures, Pa/m.
     scale: f64,
     solution: Vec<f64>,
+    /// The values of the matrix that the factor belongs to; empty without a factor.
+    factored: Vec<f64>,
 }
 
 impl SaddlePoint {
-    fn new<T: Real>(system: &System<T>, mixed: &MixedVolume) -> Self {
+    /// Analyses the matrix of a body.
+    pub(super) fn new<T: Real>(system: &System<T>, mixed: &MixedVolume) -> Self {
         let pattern = &system.pattern;
         let coupled: Vec<(u32, u32)> = mixed.couplings().map(|(corner, node)| (corner, node as u32)).collect();
         let (rows, of_pressures) = rows(pattern.rows() as u32, mixed.nodes(), &coupled);
@@ -60,6 +64,7 @@ impl SaddlePoint {
             free: Vec::new(),
             scale: mixed.scale(),
             solution: vec![0.0; size],
+            factored: Vec::new(),
         }
     }
 
@@ -72,8 +77,8 @@ impl SaddlePoint {
         mixed.coupling(u, |of| coupling.next().into_iter().for_each(|place| place.copy_from_slice(of.as_slice())));
     }
 
-    /// Factors the matrix. An error, if the displacements at which the volumes of all corners stay have no minimum.
-    fn prepare<T: Real>(&mut self, pattern: &Pattern, A: &[Block<T, 3>], mixed: &MixedVolume) -> Result<(), Breakdown> {
+    /// Sets the matrix.
+    fn set<T: Real>(&mut self, pattern: &Pattern, A: &[Block<T, 3>], mixed: &MixedVolume) {
         let Self { factor, coupling, coupled, free, scale, rows, .. } = self;
         let of_displacements = lower_entries(pattern, rows).map(|(block, i, j, _)| A[block][i][j].as_f64());
         let stored =
@@ -81,8 +86,43 @@ impl SaddlePoint {
         let of_coupling =
             stored.flat_map(|((_, node), of)| [0, 1, 2].map(|i| *scale * free[*node as usize][i] * of[i]));
         let of_pressures = mixed.compliance().map(|(_, entry)| -*scale * *scale * entry);
-        let positive = factor.prepare(of_displacements.chain(of_coupling).chain(of_pressures))?;
-        if positive == 3 * rows.len() { Ok(()) } else { Err(Breakdown::NotPositiveDefinite) }
+        factor.set(of_displacements.chain(of_coupling).chain(of_pressures));
+    }
+
+    /// Factors the matrix. An error, if the displacements at which the volumes of all corners stay have no minimum.
+    fn factor(&mut self) -> Result<(), Breakdown> {
+        self.factored.clear();
+        let positive = self.factor.factor()?;
+        self.factored.extend_from_slice(self.factor.values());
+        if positive == 3 * self.rows.len() { Ok(()) } else { Err(Breakdown::NotPositiveDefinite) }
+    }
+
+    /// Allocated bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.factor.bytes()
+            + size_of_val(&self.coupling[..])
+            + size_of_val(&self.coupled[..])
+            + size_of_val(&self.rows[..])
+            + size_of_val(&self.of_pressures[..])
+            + size_of_val(&self.solution[..])
+    }
+
+    /// Adds the matrix of the kept factor to a history.
+    pub(super) fn save(&self, history: &mut History) {
+        put_flag(history, "newton.is_saddle_point_kept", !self.factored.is_empty());
+        if !self.factored.is_empty() {
+            put(history, "newton.saddle_point", &self.factored);
+        }
+    }
+
+    /// Restores the factor of the matrix that [`save`](Self::save) has added.
+    pub(super) fn restore(&mut self, history: &History) -> Result<(), String> {
+        self.factored.clear();
+        if take_flag(history, "newton.is_saddle_point_kept")? {
+            take(history, "newton.saddle_point", self.factor.values_mut())?;
+            self.factor().map_err(|breakdown| breakdown.to_string())?;
+        }
+        Ok(())
     }
 
     /// Solves for d and q with the right-hand sides of the displacements, N, and of the pressures, m³. Returns the relative residual.
@@ -92,7 +132,7 @@ impl SaddlePoint {
             (0..3).for_each(|i| x[row as usize + i] = right[i].as_f64());
         }
         of_corners.iter().zip(of_pressures).for_each(|(&row, right)| x[row as usize] = *scale * right);
-        let residual = factor.solve(x);
+        let residual = factor.solve(x, RESIDUAL);
         d.fill([T::default(); 3]);
         for (&row, d) in rows.iter().zip(d) {
             (0..3).for_each(|i| d[i] = T::of(x[row as usize + i]));
@@ -140,6 +180,17 @@ fn rows(free: u32, nodes: &[u32], coupled: &[(u32, u32)]) -> (Vec<u32>, Vec<u32>
     (rows, of_pressures)
 }
 
+/// The matrix of an iteration, and its factor.
+#[derive(Clone, Copy, PartialEq)]
+enum Matrix {
+    /// The exact one, with the factor of an earlier one.
+    Kept,
+    /// The exact one.
+    Exact,
+    /// The one projected element by element.
+    Projected,
+}
+
 /// The entries of the lower half of a block matrix whose blocks begin at these rows: block, row and column in it, and their place.
 fn lower_entries(pattern: &Pattern, rows: &[u32]) -> impl Iterator<Item = (usize, usize, usize, [u32; 2])> {
     let blocks = (0..pattern.rows()).flat_map(|row| pattern.row(row).map(move |block| (row, block)));
@@ -171,8 +222,8 @@ impl<T: Real> Newton<T> {
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
         self.forget();
-        self.workspace.set_u(potential.increment.start, w);
-        let mut pressures = mixed.pressures_of(&self.workspace.u);
+        // Those of a guess, which changes the volume, would be far off.
+        let mut pressures = mixed.pressures_of(potential.increment.start);
         let iteration = Iteration(mixed);
         let norm = norm(&self.gradient);
         let mut at =
@@ -210,12 +261,11 @@ impl<T: Real> Newton<T> {
         counters: &mut Counters,
     ) -> Result<bool, Cause> {
         let mut q = Vec::new();
-        for kind in [HessianKind::Exact, HessianKind::Projected] {
+        for matrix in [Matrix::Kept, Matrix::Exact, Matrix::Projected] {
             mixed.set_iteration(Some(pressures.clone()));
-            if !self.prepare_with_pressures(potential, mixed, w, kind, counters)? {
+            if !self.prepare_with_pressures(potential, mixed, w, matrix, counters)? {
                 continue;
             }
-            mixed.set_iteration(Some(pressures.clone()));
             let is_solved = self.solve_with_pressures(potential, mixed, pressures, w, &mut q, counters);
             let moved: Vec<f64> = pressures.iter().zip(&q).map(|(p, q)| p + q).collect();
             mixed.set_iteration(Some(moved.clone()));
@@ -253,42 +303,50 @@ impl<T: Real> Newton<T> {
         for (right, g) in self.right.iter_mut().zip(&self.gradient) {
             *right = g.map(|g| -g);
         }
-        let Self { saddle_point, right: of_displacements, direction, .. } = self;
-        let Some(solver) = saddle_point else { return false };
-        let residual = solver.solve(of_displacements, &right, direction, q);
+        let Self { solver, saddle_point, right: of_displacements, direction, .. } = self;
+        let Some(saddle_point) = saddle_point else { return false };
+        let residual = solver.timers().1.time(|| saddle_point.solve(of_displacements, &right, direction, q));
         q.iter_mut().zip(ahead).for_each(|(q, ahead)| *q += ahead);
         residual <= RESIDUAL
     }
 
-    /// Assembles the Hessian at w and factors it with the coupling: the exact one, or the projected one, with a growing shift of its diagonal until that
-    /// succeeds. Returns false where the exact one cannot be factored, or is not wanted.
+    /// Assembles the Hessian at w with the coupling, and factors it if the factor is not a kept one; the projected one with a growing shift of its
+    /// diagonal until that succeeds. Returns false where the matrix cannot be factored, is not wanted, or there is no kept factor.
     fn prepare_with_pressures(
         &mut self,
         potential: &IncrementalPotential<T>,
         mixed: &MixedVolume,
         w: &[[T; 3]],
-        kind: HessianKind,
+        matrix: Matrix,
         counters: &mut Counters,
     ) -> Result<bool, Cause> {
-        let system = potential.system;
-        let left_out = if kind == HessianKind::Exact { Projection::Always } else { Projection::Never };
-        if self.limits.projection == left_out {
+        let Some(saddle_point) = &mut self.saddle_point else { return Ok(false) };
+        let (system, is_projected) = (potential.system, matrix == Matrix::Projected);
+        let left_out = if is_projected { Projection::Never } else { Projection::Always };
+        if self.limits.projection == left_out || matrix == Matrix::Kept && saddle_point.factored.is_empty() {
             return Ok(false);
         }
+        let kind = if is_projected { HessianKind::Projected } else { HessianKind::Exact };
         potential.hessian(w, kind, &mut self.values, &mut self.workspace);
         counters.stiffness_assemblies += 1;
-        let solver = self.saddle_point.get_or_insert_with(|| Box::new(SaddlePoint::new(system, mixed)));
-        solver.couple(system, mixed, &self.workspace.u);
+        if is_projected {
+            counters.projections += system.elements.count();
+        }
+        saddle_point.couple(system, mixed, &self.workspace.u);
+        saddle_point.set(&system.pattern, &self.values, mixed);
+        if matrix == Matrix::Kept {
+            return Ok(true);
+        }
         let diagonal: Vec<usize> = system.pattern.diagonal().collect();
         let entries = diagonal.iter().flat_map(|&block| (0..3).map(move |i| (block, i)));
         let largest = entries.map(|(block, i)| self.values[block][i][i].as_f64().abs()).fold(0.0, f64::max);
         let mut shift = 1e-8 * largest;
         loop {
             counters.factorizations += 1;
-            match solver.prepare(&system.pattern, &self.values, mixed) {
-                Ok(()) => break,
+            match self.solver.timers().0.time(|| saddle_point.factor()) {
+                Ok(()) => return Ok(true),
                 Err(breakdown) if breakdown.is_of_machine() => return Err(Cause::Solver(breakdown)),
-                Err(_) if kind == HessianKind::Exact => return Ok(false),
+                Err(_) if !is_projected => return Ok(false),
                 // NaN fails the comparison.
                 Err(_) if !(shift <= 1e4 * largest) => {
                     return Err(Cause::Stuck { unbalanced: max_norm(&self.gradient) });
@@ -298,13 +356,9 @@ impl<T: Real> Newton<T> {
             for &block in &diagonal {
                 (0..3).for_each(|i| self.values[block][i][i] += T::of(shift));
             }
+            saddle_point.set(&system.pattern, &self.values, mixed);
             shift *= 10.0;
         }
-        if kind == HessianKind::Projected {
-            counters.projections += system.elements.count();
-        }
-        self.factor = Factor::Stale;
-        Ok(true)
     }
 
     /// The same as [`predict`](Self::predict) with pressures: the increment of a linear body with the prescribed displacements.
@@ -316,19 +370,20 @@ impl<T: Real> Newton<T> {
         w: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<(), Cause> {
-        let is_prepared = self.prepare_with_pressures(potential, mixed, w, HessianKind::Exact, counters)?
-            || self.prepare_with_pressures(potential, mixed, w, HessianKind::Projected, counters)?;
+        let is_prepared = self.prepare_with_pressures(potential, mixed, w, Matrix::Exact, counters)?
+            || self.prepare_with_pressures(potential, mixed, w, Matrix::Projected, counters)?;
         potential.linearized_gradient(prescribed, &mut self.gradient, &mut self.workspace);
         for (right, g) in self.right.iter_mut().zip(&self.gradient) {
             *right = g.map(|g| -g);
         }
         let Self { saddle_point, right, .. } = self;
-        let Some(solver) = saddle_point.as_mut().filter(|_| is_prepared) else {
+        let Some(saddle_point) = saddle_point.as_mut().filter(|_| is_prepared) else {
             return Err(Cause::Solver(Breakdown::NotPositiveDefinite));
         };
         // At the start the displacements belong to the pressures.
-        let volumes: Vec<f64> = solver.volumes_of(prescribed, mixed.count()).iter().map(|volume| -volume).collect();
-        if solver.solve(right, &volumes, w, &mut Vec::new()) > RESIDUAL {
+        let volumes: Vec<f64> =
+            saddle_point.volumes_of(prescribed, mixed.count()).iter().map(|volume| -volume).collect();
+        if saddle_point.solve(right, &volumes, w, &mut Vec::new()) > RESIDUAL {
             return Err(Cause::Solver(Breakdown::Singular));
         }
         potential.system.dirichlet.copy_constrained(prescribed, w);

@@ -65,6 +65,14 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
             ),
         ),
         (
+            body.is_incompressible() && method.integrator.facts().is_balanced_within_step,
+            "time.integrator",
+            format!(
+                "is \"{name}\", which would keep the volume within its steps alone, and material.poisson is ½; take a smaller \
+                 ratio, or newmark, bdf2, bathe or implicit_euler"
+            ),
+        ),
+        (
             is_mixed && solver.is_some_and(|solver| solver.kind != SolverKind::Cholesky),
             "solver.kind",
             "is for displacements alone, and material.volumetric is \"mixed\"; remove [solver], or give \"cholesky\""

@@ -86,6 +86,10 @@ pub(super) fn build<T: Real>(
     let tolerance = method.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
     let tolerance = tolerance.max(SMALLEST_RESIDUAL * T::EPSILON.as_f64());
     let newton = || {
+        let limits = limits::<T>(kind, method, tolerance);
+        if let Some(newton) = Newton::with_pressures(limits, system) {
+            return newton;
+        }
         // Inertia bounds the condition number, and a linear body needs one direction alone.
         let solver = if kind == IntegratorKind::Static && system.may_be_linear() {
             // No dead load makes this matrix indefinite.
@@ -98,7 +102,7 @@ pub(super) fn build<T: Real>(
         let is_on_device = matches!(choice, SolverChoice::Gpu(_));
         let is_assembled_there = is_on_device && device_assembly::is_possible(kind, method, system);
         let solver = if is_assembled_there { with_elements(solver, system) } else { solver };
-        Newton::new(limits::<T>(kind, method, tolerance), solver, system.nodes(), system.pattern.blocks())
+        Newton::new(limits, solver, system.nodes(), system.pattern.blocks())
     };
     let parts = Parts { method, system, planes, solver: &solver, newton: &newton, tolerance };
     integrators::build(kind, &parts)
@@ -136,7 +140,8 @@ impl<T: Real> Simulator<T> {
         let treatment = self.contact.as_ref().map(|_| method.facts().contact);
         let has_pressures = self.system.forces.mixed().is_some();
         let is_usable = |kind: &IntegratorKind| {
-            treatment.is_none_or(|treatment| kind.facts().contact == treatment) && (!has_pressures || kind.has_newton())
+            treatment.is_none_or(|treatment| kind.facts().contact == treatment)
+                && (!has_pressures || kind.has_newton() && !kind.facts().is_balanced_within_step)
         };
         let methods: Vec<_> = method.alternatives().into_iter().filter(is_usable).collect();
         self.kind = self.kind.next_in(&methods);

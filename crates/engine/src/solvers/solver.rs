@@ -38,6 +38,8 @@ pub struct Solver<T: Real> {
     counters: SolverCounters,
     preparing: Timer,
     solving: Timer,
+    /// Bytes of a factor that another part keeps in its place.
+    elsewhere: usize,
 }
 
 impl<T: Real> Solver<T> {
@@ -77,7 +79,13 @@ impl<T: Real> Solver<T> {
             counters: SolverCounters { symbolic_factorizations: 1, ..SolverCounters::default() },
             preparing: Timer::default(),
             solving: Timer::default(),
+            elsewhere: 0,
         }
+    }
+
+    /// Stands for a factor of so many bytes that another part keeps, and times.
+    pub(crate) fn in_place_of(pattern: &Arc<Pattern>, bytes: usize) -> Self {
+        Self { elsewhere: bytes, ..Self::with_inverse(SolverChoice::Cholesky, pattern, Box::new(Identity)) }
     }
 
     /// Factors the matrix where the iterative solver breaks down and a factor fits into memory: for a matrix that is positive definite unless
@@ -251,7 +259,7 @@ impl<T: Real> Solver<T> {
     /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not report their size.
     pub fn bytes(&self) -> usize {
         let fallback = self.fallback.as_ref().map_or(0, |fallback| fallback.bytes());
-        self.inverse.bytes() + self.workspace.bytes() + fallback
+        self.inverse.bytes() + self.workspace.bytes() + fallback + self.elsewhere
     }
 }
 

@@ -224,3 +224,11 @@ fn a_damaged_state_is_refused() {
         assert!(message.contains("state.json: ") && message.contains("; give a file that --state"), "{message}");
     }
 }
+
+#[test]
+fn a_run_with_pressures_as_unknowns_goes_on_bit_for_bit() {
+    for integrator in ["implicit_euler", "newmark", "bathe"] {
+        let text = body_of(integrator, "f64", "", 1);
+        assert_goes_on(&text.replace("density = 1000.0", "density = 1000.0\nvolumetric = \"mixed\""));
+    }
+}

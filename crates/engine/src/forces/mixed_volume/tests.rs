@@ -48,7 +48,7 @@ fn beta(system: &System, is_stabilized: bool) -> f64 {
     for B in &B {
         let mut solved = B.clone();
         solved.column_iter_mut().for_each(|mut column| {
-            laplacian.solve(column.as_mut_slice());
+            laplacian.solve(column.as_mut_slice(), 1e-12);
         });
         sum += B.transpose() * solved;
     }
@@ -83,7 +83,8 @@ fn laplacian(mixed: &MixedVolume, free: usize) -> Ldlt {
         }
     }
     let mut factor = Ldlt::new(free, &places);
-    assert_eq!(factor.prepare(entries.into_iter()), Ok(free));
+    factor.set(entries.into_iter());
+    assert_eq!(factor.factor(), Ok(free));
     factor
 }
 

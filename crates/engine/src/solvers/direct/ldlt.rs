@@ -11,7 +11,7 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 use super::faer_cholesky::symbolic_factor;
 use fem_model::simulation::Breakdown;
 
-/// A symmetric matrix that is a sum of entries at fixed places, and its factor. Nothing is allocated after [`new`](Self::new).
+/// A symmetric matrix that is a sum of entries at fixed places, and a factor.
 pub(crate) struct Ldlt {
     symbolic: SymbolicSparseColMat<u32>,
     values: Vec<f64>,
@@ -23,16 +23,16 @@ pub(crate) struct Ldlt {
     workspace: MemBuffer,
     workspace_bytes: usize,
     threads: Par,
-    residual: Vec<f64>,
-    right: Vec<f64>,
+    /// Vectors of an iteration: an orthonormal basis, and the solutions by the factor with its vectors.
+    basis: Vec<f64>,
+    solutions: Vec<f64>,
 }
 
 /// From this many rows on the factorisation uses several threads.
 const ROWS_FOR_THREADS: usize = 15_000;
 
-/// Largest number of corrections of a solution, and the relative residual that ends them.
-const CORRECTIONS: usize = 4;
-const ROUNDING: f64 = 1e-13;
+/// Largest number of iterations: about as many as a factor of a large matrix is worth.
+const ITERATIONS: usize = 20;
 
 impl Ldlt {
     /// Analyses a matrix of `rows` rows, to be factored in their order, whose entries are at these rows and columns; of each pair of places
@@ -66,16 +66,30 @@ impl Ldlt {
             workspace: MemBuffer::new(need),
             workspace_bytes: need.size_bytes(),
             threads,
-            residual: vec![0.0; rows],
-            right: vec![0.0; rows],
+            basis: Vec::new(),
+            solutions: Vec::new(),
         }
     }
 
-    /// Factors the matrix with these entries, those of one place added up, and returns the number of its positive eigenvalues.
-    pub(crate) fn prepare(&mut self, entries: impl Iterator<Item = f64>) -> Result<usize, Breakdown> {
-        let factor = self.factor.as_ref().ok_or(Breakdown::TooLarge)?;
+    /// Sets the entries of the matrix, those of one place added up. The factor stays that of the matrix before.
+    pub(crate) fn set(&mut self, entries: impl Iterator<Item = f64>) {
         self.values.fill(0.0);
         self.targets.iter().zip(entries).for_each(|(&target, entry)| self.values[target as usize] += entry);
+    }
+
+    /// The values of the matrix that was set last.
+    pub(crate) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The same, to be restored.
+    pub(crate) fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// Factors the matrix, and returns the number of its positive eigenvalues.
+    pub(crate) fn factor(&mut self) -> Result<usize, Breakdown> {
+        let factor = self.factor.as_ref().ok_or(Breakdown::TooLarge)?;
         if !self.values.iter().all(|value| value.is_finite()) {
             return Err(Breakdown::Singular);
         }
@@ -94,51 +108,92 @@ impl Ldlt {
         Ok(pivots.filter(|&pivot| pivot > 0.0).count())
     }
 
-    /// Overwrites the right-hand side with the solution, which is corrected until its residual is rounding error. Returns the relative
-    /// residual.
-    pub(crate) fn solve(&mut self, x: &mut [f64]) -> f64 {
-        let size = max_norm(x);
+    /// Overwrites the right-hand side with the solution, to this relative residual, by GMRES with the factor, of this matrix or of a similar one, as
+    /// its preconditioner: Saad and Schultz, GMRES (1986), in the flexible form of Saad (1993). Returns the relative residual.
+    pub(crate) fn solve(&mut self, x: &mut [f64], tolerance: f64) -> f64 {
+        let size = norm(x);
         if size == 0.0 {
             return 0.0;
         }
-        self.right.copy_from_slice(x);
-        self.residual.copy_from_slice(x);
-        x.fill(0.0);
+        let rows = x.len();
+        self.basis.clear();
+        self.basis.extend(x.iter().map(|x| x / size));
+        self.solutions.clear();
+        // The least squares problem of the coefficients, brought to triangular form by rotations.
+        let (mut R, mut rotations, mut right) = (Vec::new(), Vec::<[f64; 2]>::new(), vec![size]);
         let mut left = 1.0;
-        for _ in 0..=CORRECTIONS {
-            self.apply();
-            x.iter_mut().zip(&self.residual).for_each(|(x, correction)| *x += correction);
-            self.residual.copy_from_slice(&self.right);
-            self.subtract_product(x);
+        while left > tolerance && rotations.len() < ITERATIONS {
+            let step = rotations.len();
+            self.apply(step);
+            self.multiply(step);
+            let mut column: Vec<f64> = Vec::with_capacity(step + 2);
+            let (basis, product) = self.basis.split_at_mut(rows * (step + 1));
+            for v in basis.chunks_exact(rows) {
+                let part = v.iter().zip(&*product).map(|(v, p)| v * p).sum::<f64>();
+                product.iter_mut().zip(v).for_each(|(p, v)| *p -= part * v);
+                column.push(part);
+            }
+            let rest = norm(product);
+            product.iter_mut().for_each(|p| *p /= rest);
+            for (k, [cosine, sine]) in rotations.iter().enumerate() {
+                let [a, b] = [column[k], column[k + 1..].first().copied().unwrap_or(0.0)];
+                column[k] = cosine * a + sine * b;
+                if let Some(next) = column.get_mut(k + 1) {
+                    *next = cosine * b - sine * a;
+                }
+            }
+            let last = column[step];
+            let length = last.hypot(rest);
+            let [cosine, sine] = [last / length, rest / length];
+            column[step] = length;
+            rotations.push([cosine, sine]);
+            R.push(column);
+            right.push(-sine * right[step]);
+            right[step] *= cosine;
             let before = left;
-            left = max_norm(&self.residual) / size;
+            left = right[step + 1].abs() / size;
             // NaN fails the comparison.
-            if left <= ROUNDING || !(left < 0.5 * before) {
+            if !(left < before) || rest == 0.0 {
                 break;
             }
         }
-        left
+        for step in (0..R.len()).rev() {
+            let known: f64 = (step + 1..R.len()).map(|k| R[k][step] * right[k]).sum();
+            right[step] = (right[step] - known) / R[step][step];
+        }
+        x.fill(0.0);
+        for (z, factor) in self.solutions.chunks_exact(rows).zip(&right) {
+            x.iter_mut().zip(z).for_each(|(x, z)| *x += factor * z);
+        }
+        if x.iter().all(|x| x.is_finite()) { left } else { f64::NAN }
     }
 
-    /// Replaces the residual by the solution with it as the right-hand side.
-    fn apply(&mut self) {
+    /// Adds the solution by the factor with a vector of the basis as its right-hand side.
+    fn apply(&mut self, step: usize) {
+        let rows = self.symbolic.nrows();
+        self.solutions.extend_from_slice(&self.basis[step * rows..][..rows]);
         let Some(factor) = &self.factor else { return };
-        let rows = self.residual.len();
-        let x = MatMut::from_column_major_slice_mut(&mut self.residual, rows, 1);
+        let x = MatMut::from_column_major_slice_mut(&mut self.solutions[step * rows..], rows, 1);
         let stack = MemStack::new(&mut self.workspace);
         LdltRef::new(factor, &self.L).solve_in_place_with_conj(Conj::No, x, self.threads, stack);
     }
 
-    /// residual −= A x
-    fn subtract_product(&mut self, x: &[f64]) {
+    /// Adds A times a solution to the basis.
+    fn multiply(&mut self, step: usize) {
+        let rows = self.symbolic.nrows();
         let matrix = SparseColMatRef::new(self.symbolic.as_ref(), &self.values);
-        for column in 0..x.len() {
+        let first = self.basis.len();
+        self.basis.resize(first + rows, 0.0);
+        let (x, y) = (&self.solutions[step * rows..], &mut self.basis[first..]);
+        for column in 0..rows {
+            let mut of_column = 0.0;
             for (row, value) in matrix.row_idx_of_col(column).zip(matrix.val_of_col(column)) {
-                self.residual[row] -= value * x[column];
+                y[row] += value * x[column];
                 if row != column {
-                    self.residual[column] -= value * x[row];
+                    of_column += value * x[row];
                 }
             }
+            y[column] += of_column;
         }
     }
 
@@ -149,12 +204,12 @@ impl Ldlt {
             + size_of_val(&self.values[..])
             + size_of_val(&self.targets[..])
             + size_of_val(&self.L[..])
-            + size_of_val(&self.residual[..])
-            + size_of_val(&self.right[..])
+            + size_of_val(&self.basis[..])
+            + size_of_val(&self.solutions[..])
             + self.workspace_bytes
     }
 }
 
-fn max_norm(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest, x| f64::max(largest, x.abs()))
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
