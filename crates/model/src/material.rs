@@ -536,7 +536,7 @@ impl Material {
             PlaneState::Strain => Ok(()),
             PlaneState::Stress => problem(
                 field,
-                &format!(
+                format!(
                     "is \"{}\", and in plane stress nothing holds the volume and no element locks; remove it",
                     self.volumetric.name()
                 ),

@@ -3,6 +3,7 @@
 mod averaged_volume;
 mod central_gravity;
 pub mod contact;
+mod corner_pressures;
 pub mod dead_load;
 pub mod drag;
 mod energy;
@@ -22,12 +23,12 @@ use fem_model::simulation::History;
 use fem_model::{Body, Timer};
 
 use crate::numbering::Numbering;
+pub(crate) use corner_pressures::CornerPressures;
 use drag::DragSprings;
 pub use energy::Energy;
 use fem_elements::Real;
 use fem_elements::sparse::Pattern;
 pub use hessian_kind::HessianKind;
-pub(crate) use mixed_volume::MixedVolume;
 pub use potential::{AddBlock, Barrier, Damped, Follower, InElements, Lagged, Moment, Potential, Remembering};
 
 /// A kind of force, which is built if the scene asks for it.
@@ -120,7 +121,7 @@ impl<T: Real> Forces<T> {
     }
 
     /// The energy of the volume whose pressures are unknowns beside the displacements.
-    pub fn mixed(&self) -> Option<&MixedVolume> {
+    pub fn mixed(&self) -> Option<&CornerPressures> {
         self.potentials.iter().find_map(|(potential, _)| potential.mixed())
     }
 

@@ -4,8 +4,9 @@ use fem_model::LoadCurve;
 use fem_model::simulation::History;
 use nalgebra::Matrix3;
 
+use super::corner_pressures::CornerPressures;
 use super::spring::Spring;
-use super::{Energy, HessianKind, MixedVolume};
+use super::{Energy, HessianKind};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 
@@ -114,7 +115,7 @@ pub trait Potential<T: Real>: Send + Sync {
     }
 
     /// Itself, if pressures are unknowns beside the displacements.
-    fn mixed(&self) -> Option<&MixedVolume> {
+    fn mixed(&self) -> Option<&CornerPressures> {
         None
     }
 

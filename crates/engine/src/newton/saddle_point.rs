@@ -9,7 +9,7 @@ use fem_model::simulation::{Breakdown, Cause, Counters, History};
 
 use super::incremental_potential::IncrementalPotential;
 use super::{Convergence, Iterate, Newton};
-use crate::forces::{Energy, HessianKind, MixedVolume};
+use crate::forces::{CornerPressures, Energy, HessianKind};
 use crate::model::system::System;
 use crate::solvers::Ldlt;
 use fem_elements::Real;
@@ -44,7 +44,7 @@ pub(super) struct SaddlePoint {
 
 impl SaddlePoint {
     /// Analyses the matrix of a body.
-    pub(super) fn new<T: Real>(system: &System<T>, mixed: &MixedVolume) -> Self {
+    pub(super) fn new<T: Real>(system: &System<T>, mixed: &CornerPressures) -> Self {
         let pattern = &system.pattern;
         let coupled: Vec<(u32, u32)> = mixed.couplings().map(|(corner, node)| (corner, node as u32)).collect();
         let (rows, of_pressures) = rows(pattern.rows() as u32, mixed.nodes(), &coupled);
@@ -69,7 +69,7 @@ impl SaddlePoint {
     }
 
     /// Evaluates the coupling of displacements and pressures at u.
-    fn couple<T: Real>(&mut self, system: &System<T>, mixed: &MixedVolume, u: &[[T; 3]]) {
+    fn couple<T: Real>(&mut self, system: &System<T>, mixed: &CornerPressures, u: &[[T; 3]]) {
         let mut free = vec![[T::one(); 3]; system.nodes()];
         system.dirichlet.clear_constrained(&mut free);
         self.free = free.into_iter().map(|of| of.map(T::as_f64)).collect();
@@ -78,7 +78,7 @@ impl SaddlePoint {
     }
 
     /// Sets the matrix.
-    fn set<T: Real>(&mut self, pattern: &Pattern, A: &[Block<T, 3>], mixed: &MixedVolume) {
+    fn set<T: Real>(&mut self, pattern: &Pattern, A: &[Block<T, 3>], mixed: &CornerPressures) {
         let Self { factor, coupling, coupled, free, scale, rows, .. } = self;
         let of_displacements = lower_entries(pattern, rows).map(|(block, i, j, _)| A[block][i][j].as_f64());
         let stored =
@@ -203,7 +203,7 @@ fn lower_entries(pattern: &Pattern, rows: &[u32]) -> impl Iterator<Item = (usize
 }
 
 /// Sets the pressures at which energies are evaluated, and returns to those that displacements cause at the end.
-struct Iteration<'a>(&'a MixedVolume);
+struct Iteration<'a>(&'a CornerPressures);
 
 impl Drop for Iteration<'_> {
     fn drop(&mut self) {
@@ -216,7 +216,7 @@ impl<T: Real> Newton<T> {
     pub(super) fn find_saddle_point(
         &mut self,
         potential: &IncrementalPotential<T>,
-        mixed: &MixedVolume,
+        mixed: &CornerPressures,
         energy: Energy,
         w: &mut [[T; 3]],
         counters: &mut Counters,
@@ -255,7 +255,7 @@ impl<T: Real> Newton<T> {
     fn iterate_with_pressures(
         &mut self,
         potential: &IncrementalPotential<T>,
-        mixed: &MixedVolume,
+        mixed: &CornerPressures,
         pressures: &mut Vec<f64>,
         (w, at): (&mut [[T; 3]], &mut Iterate),
         counters: &mut Counters,
@@ -288,7 +288,7 @@ impl<T: Real> Newton<T> {
     fn solve_with_pressures(
         &mut self,
         potential: &IncrementalPotential<T>,
-        mixed: &MixedVolume,
+        mixed: &CornerPressures,
         pressures: &[f64],
         w: &[[T; 3]],
         q: &mut Vec<f64>,
@@ -315,7 +315,7 @@ impl<T: Real> Newton<T> {
     fn prepare_with_pressures(
         &mut self,
         potential: &IncrementalPotential<T>,
-        mixed: &MixedVolume,
+        mixed: &CornerPressures,
         w: &[[T; 3]],
         matrix: Matrix,
         counters: &mut Counters,
@@ -365,7 +365,7 @@ impl<T: Real> Newton<T> {
     pub(super) fn predict_with_pressures(
         &mut self,
         potential: &IncrementalPotential<T>,
-        mixed: &MixedVolume,
+        mixed: &CornerPressures,
         prescribed: &[[T; 3]],
         w: &mut [[T; 3]],
         counters: &mut Counters,

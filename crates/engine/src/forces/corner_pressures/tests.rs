@@ -5,7 +5,7 @@ use fem_mesh::{Pattern, box_mesh, rectangle_mesh};
 use fem_model::{Axis, Body, BodyMesh, Elastic, Law, Material, Selector, Volumetric};
 use nalgebra::{DMatrix, Vector3};
 
-use super::MixedVolume;
+use super::CornerPressures;
 use crate::simulator::double::{self, System};
 use crate::solvers::{Ldlt, SolverChoice};
 
@@ -72,7 +72,7 @@ fn beta(system: &System, is_stabilized: bool) -> f64 {
 }
 
 /// ∫ ∇N·∇N of the free nodes, factored.
-fn laplacian(mixed: &MixedVolume, free: usize) -> Ldlt {
+fn laplacian(mixed: &CornerPressures, free: usize) -> Ldlt {
     let (mut places, mut entries) = (Vec::new(), Vec::new());
     for point in 0..mixed.points.count() {
         for (row, a) in mixed.points.nodes(point) {
