@@ -1,6 +1,7 @@
 //! The energy of the volume averaged over patches, or with pressures as unknowns: derivatives, affine states, and bodies that hardly change their
 //! volume or do not change it at all.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
@@ -216,7 +217,19 @@ fn cook(order: usize, pattern: Pattern, volumetric: Volumetric) -> f64 {
 
 /// The same of a law, and the number of Newton's iterations.
 fn cook_of(law: Law, order: usize, pattern: Pattern, volumetric: Volumetric) -> (f64, usize) {
-    let mut mesh = rectangle_mesh([1.0, 1.0], 16, pattern).unwrap();
+    let (simulation, corner) = bent_membrane(law, 16, order, pattern, volumetric);
+    (simulation.positions()[3 * corner + 1] - 60.0, simulation.counters().newton_iterations)
+}
+
+/// Cook's membrane under its load, and the node of its upper corner.
+fn bent_membrane(
+    law: Law,
+    cells: usize,
+    order: usize,
+    pattern: Pattern,
+    volumetric: Volumetric,
+) -> (Box<dyn Simulation>, usize) {
+    let mut mesh = rectangle_mesh([1.0, 1.0], cells, pattern).unwrap();
     for x in &mut mesh.vertices {
         let [s, t] = [x.x, x.y];
         *x = Vector3::new(48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s), 0.0);
@@ -229,7 +242,35 @@ fn cook_of(law: Law, order: usize, pattern: Pattern, volumetric: Volumetric) -> 
     let method = Method { load_steps: 8, ..Method::new(Integrator::Static, 1.0) };
     let mut simulation = fem_engine::simulator::build(body, &method).unwrap();
     run(&mut *simulation, 8);
-    (simulation.positions()[3 * corner + 1] - 60.0, simulation.counters().newton_iterations)
+    (simulation, corner)
+}
+
+/// Jump of the pressure from element to element, relative to the pressure, both as means of squares.
+fn oscillation(cells: usize, volumetric: Volumetric) -> f64 {
+    let law = Law::NeoHookean(NeoHookean::Moduli { C: 40.0969, D: 200_471.6 });
+    let (simulation, _) = bent_membrane(law, cells, 1, Pattern::Alternating, volumetric);
+    let pressures: Vec<f64> = simulation.stresses().iter().map(|stress| stress.trace() / 3.0).collect();
+    let mut at_edge = HashMap::new();
+    let mut jumps = Vec::new();
+    for (element, corners) in simulation.shape().mesh.corners().enumerate() {
+        for [a, b] in [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|k: usize| corners[k])) {
+            if let Some(other) = at_edge.insert([a.min(b), a.max(b)], element) {
+                jumps.push(pressures[element] - pressures[other]);
+            }
+        }
+    }
+    let size = |of: &[f64]| (of.iter().map(|x| x * x).sum::<f64>() / of.len() as f64).sqrt();
+    size(&jumps) / size(&pressures)
+}
+
+#[test]
+fn pressures_oscillate_from_element_to_element_in_the_standard_form_alone() {
+    let locked = oscillation(16, Volumetric::Standard);
+    assert!(locked > 1.0, "{locked}");
+    for volumetric in [Volumetric::Averaged, Volumetric::Mixed] {
+        let [coarse, fine] = [8, 16].map(|cells| oscillation(cells, volumetric));
+        assert!(fine < 0.75 * coarse && fine < 0.4, "{volumetric:?}: {coarse} {fine}");
+    }
 }
 
 #[test]
