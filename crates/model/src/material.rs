@@ -495,13 +495,10 @@ impl Material {
             match name {
                 "poisson" if value > -1.0 && value < 0.5 => {}
                 "poisson" if value == 0.5 && self.volumetric == Volumetric::Mixed => {}
-                "poisson" if value == 0.5 => {
-                    let problem = "is ½, with which the volume is held by pressures alone";
-                    let remedy = format!("write {table}.volumetric = \"mixed\", or a smaller ratio");
-                    return Err(Refusal::new(&field, format!("{problem}; {remedy}")));
-                }
                 "poisson" => {
-                    return problem(&field, format!("is {value}; Poisson's ratio lies above -1 and below 0.5"));
+                    let range = format!("is {value}; Poisson's ratio lies above -1 and below 0.5");
+                    let held = format!(", or is that with {table}.volumetric = \"mixed\"");
+                    return problem(&field, range + if value == 0.5 { &held } else { "" });
                 }
                 "C10" | "C01" | "C2" | "C3" | "mu1" | "mu2" | "mu3" => check_finite(&field, &[value])?,
                 "alpha1" | "alpha2" | "alpha3" if value == 0.0 => {

@@ -436,6 +436,6 @@ fn pressures_refuse_methods_and_solvers_that_do_not_know_them_with_the_remedy() 
     for form in ["standard", "averaged"] {
         let text = of_law("neo_hookean", &soft("static", 1.0, "")).replace("poisson = 0.3", "poisson = 0.5");
         let message = try_build_error(&with_volume(form, &text));
-        assert!(message.contains("write material.volumetric = \"mixed\""), "{message}");
+        assert!(message.contains("or is that with material.volumetric = \"mixed\""), "{message}");
     }
 }
