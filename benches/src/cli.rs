@@ -13,10 +13,26 @@ use fem_scene::{Override, Scene};
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
+    /// Put what the command prints into this page, under the line that names the command
+    #[arg(long, value_name = "FILE", global = true)]
+    pub book: Option<PathBuf>,
+}
+
+/// The arguments without `--book` and its file.
+pub fn without_book(arguments: impl Iterator<Item = String>) -> Vec<String> {
+    let (mut kept, mut is_file) = (Vec::new(), false);
+    for argument in arguments {
+        if !std::mem::replace(&mut is_file, argument == "--book") && !is_file && !argument.starts_with("--book=") {
+            kept.push(argument);
+        }
+    }
+    kept
 }
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// The course's pipeline on its own scenes
+    Course(CourseArguments),
     /// The engine and its peers in turn, on the same scenes: a table of times per step, and whether answers agree
     Peers(PeersArguments),
     /// The costs of the parts of a step
@@ -56,6 +72,16 @@ pub struct PeersArguments {
     /// Write the table as JSON
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct CourseArguments {
+    /// Steps of each run
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = positive)]
+    pub steps: usize,
+    /// Folder of meshes and scenes
+    #[arg(long, value_name = "DIR", default_value = "data")]
+    pub data: PathBuf,
 }
 
 #[derive(Debug, Args)]

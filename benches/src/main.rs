@@ -4,7 +4,9 @@
 
 #![allow(non_snake_case)] // C and D are the names that the mathematics uses
 
+mod book;
 mod cli;
+mod course;
 mod end;
 mod frame;
 mod gpu;
@@ -21,16 +23,13 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use cli::{Arguments, Command};
+use end::End;
 
 fn main() -> ExitCode {
-    let ended = match Arguments::parse().command {
-        Command::Peers(arguments) => peers::run(&arguments),
-        Command::Parts(arguments) => parts::run(&arguments),
-        Command::Scaling(arguments) => scaling::run(&arguments),
-        Command::Solvers(arguments) => solvers::run(&arguments),
-        Command::Gpu(arguments) => gpu::run(&arguments),
-        Command::Frame(arguments) => frame::run(&arguments),
-        Command::Run(arguments) => run::print(&arguments),
+    let Arguments { command, book } = Arguments::parse();
+    let ended = match (book, command) {
+        (Some(page), _) => book::write(&page, &cli::without_book(std::env::args().skip(1))),
+        (None, command) => run(command),
     };
     match ended {
         Ok(()) => ExitCode::SUCCESS,
@@ -38,5 +37,18 @@ fn main() -> ExitCode {
             eprintln!("error: {end}");
             end.exit_code()
         }
+    }
+}
+
+fn run(command: Command) -> Result<(), End> {
+    match command {
+        Command::Course(arguments) => course::run(&arguments),
+        Command::Peers(arguments) => peers::run(&arguments),
+        Command::Parts(arguments) => parts::run(&arguments),
+        Command::Scaling(arguments) => scaling::run(&arguments),
+        Command::Solvers(arguments) => solvers::run(&arguments),
+        Command::Gpu(arguments) => gpu::run(&arguments),
+        Command::Frame(arguments) => frame::run(&arguments),
+        Command::Run(arguments) => run::print(&arguments),
     }
 }

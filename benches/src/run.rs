@@ -3,8 +3,11 @@
 use std::process::Command;
 use std::time::Instant;
 
+use fem_model::simulation::Simulation;
 use fem_scene::output::Stats;
 use fem_scene::simulate;
+use fem_scene::tables::Pipeline;
+use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nix::time::{ClockId, clock_gettime};
 use serde::{Deserialize, Serialize};
 
@@ -47,7 +50,10 @@ fn here(arguments: &RunArguments) -> Result<Measurement, End> {
     let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
     let start = Instant::now();
     let body = fem_scene::body(&scene, &arguments.data).map_err(End::unusable)?;
-    let mut simulation = fem_engine::simulator::build(body, &scene.method()).map_err(End::unusable)?;
+    let mut simulation: Box<dyn Simulation> = match scene.pipeline {
+        Pipeline::Course => Box::new(AssignmentSetup::new(&scene, body).map_err(End::unusable)?),
+        Pipeline::Engine => fem_engine::simulator::build(body, &scene.method()).map_err(End::unusable)?,
+    };
     let seconds_setup = start.elapsed().as_secs_f64();
 
     let (wall, cpu) = (Instant::now(), processor_seconds()?);

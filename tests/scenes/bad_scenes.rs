@@ -142,7 +142,7 @@ fn numbers_out_of_range_are_refused_with_their_field() {
 #[test]
 fn a_material_without_exactly_one_pair_of_moduli_is_refused() {
     let pair = "give one pair and only one";
-    assert_refused("D = 4e5\n", "", 5, &["material needs either C and D or young and poisson", pair]);
+    assert_refused("D = 4e5\n", "", 5, &["material needs either C and D or young and poisson or lambda and mu", pair]);
     assert_refused("C = 1e5\n", "", 5, &[pair]);
     assert_refused("C = 1e5\nD = 4e5\n", "", 5, &[pair]);
     assert_refused("C = 1e5\nD = 4e5\n", "young = 1e5\n", 5, &[pair]);

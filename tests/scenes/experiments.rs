@@ -16,7 +16,10 @@ fn the_short_experiments_on_flat_bodies_hold_their_marks_and_write_a_page_tables
         ("mesh", "mesh"),
         ("plasticity", "plasticity"),
         ("plasticity", "plasticity-cylinder"),
+        ("stability", "stability-square"),
+        ("mesh", "mesh-scattered"),
         ("drop", "drop"),
+        ("sweep", "sweep"),
         ("contact", "contact-stopping"),
         ("contact", "contact-hertz"),
         ("mistakes", "mistakes"),
@@ -28,7 +31,17 @@ fn the_short_experiments_on_flat_bodies_hold_their_marks_and_write_a_page_tables
     }
     let page = fs::read_to_string(desk.path("found/flat.html")).unwrap();
     assert!(page.contains("marks hold") && !page.contains("does not hold") && page.contains("<svg"), "{page}");
-    for picture in ["flat-speed.svg", "flat-mesh.svg", "flat-convergence.svg", "flat-plasticity.svg", "flat-drop.svg"] {
+    for picture in [
+        "flat-speed.svg",
+        "flat-mesh.svg",
+        "flat-convergence.svg",
+        "flat-plasticity.svg",
+        "flat-plasticity-tension.svg",
+        "flat-drop.svg",
+        "flat-mesh-bunny.svg",
+        "flat-stability-square.svg",
+        "flat-sweep-friction.svg",
+    ] {
         assert!(fs::read_to_string(desk.path("found").join(picture)).unwrap().starts_with("<svg"), "{picture}");
     }
 }
@@ -45,6 +58,7 @@ fn the_short_experiment_on_the_torus_holds_its_marks_and_writes_a_page_tables_an
         "materials",
         "structures",
         "picture",
+        "slivers",
         "methods",
         "modulus",
         "momentum",
@@ -63,6 +77,7 @@ fn the_short_experiment_on_the_torus_holds_its_marks_and_writes_a_page_tables_an
         "young",
         "poisson",
         "structures",
+        "slivers",
         "mistakes",
         "methods",
         "methods-times",
@@ -84,7 +99,10 @@ fn the_short_experiment_on_the_torus_holds_its_marks_and_writes_a_page_tables_an
     assert!(runs.lines().skip(1).all(|line| line.ends_with(",done")), "{runs}");
     let page = fs::read_to_string(desk.path("found/rtfem.html")).unwrap();
     assert!(page.contains("marks hold") && !page.contains("does not hold") && page.contains("<svg"), "{page}");
-    assert!(fs::read_to_string(desk.path("found/rtfem-squashed.svg")).unwrap().starts_with("<svg"));
+    for picture in ["squashed", "turning", "slivers"] {
+        let text = fs::read_to_string(desk.path(&format!("found/rtfem-{picture}.svg"))).unwrap();
+        assert!(text.starts_with("<svg"), "{picture}");
+    }
 }
 
 #[test]

@@ -52,7 +52,7 @@ const ADDITIONS: [Addition; 5] = [
             (
                 "crates/model/src/material.rs",
                 "            of(\"neo_hookean\"",
-                "            of_elastic(\"green\", false, |given| Self::Green(elastic(given))),\n            of(\"neo_hookean\"",
+                "            of_elastic(\"green\", false, None, |given| Self::Green(elastic(given))),\n            of(\"neo_hookean\"",
             ),
             (
                 "crates/model/src/material.rs",

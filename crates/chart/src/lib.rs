@@ -1,4 +1,4 @@
-//! Self-contained SVG charts and HTML pages: points and lines on two axes, dots in rows, heat maps, bars, histograms, triangles in space.
+//! Self-contained SVG charts and HTML pages: points and lines on two axes, dots in rows, heat maps, bars, histograms, regions, triangles in space.
 //!
 //! A [`Picture`] is drawn inline in a page that includes [`STYLE`], or written as a file of its own. Values that are not finite, or
 //! not positive on a logarithmic axis, are left out: no picture contains a NaN.
@@ -20,6 +20,7 @@ mod heat_map;
 mod histogram;
 pub mod page;
 mod picture;
+mod region;
 mod svg;
 mod triangles;
 
@@ -32,7 +33,8 @@ pub use grid::grid;
 pub use heat_map::{Cell, Curve, HeatMap, Shade};
 pub use histogram::histogram;
 pub use picture::Picture;
-pub use triangles::triangles;
+pub use region::region;
+pub use triangles::{triangles, triangles_in_frame};
 
 /// Colours of all pictures, light and dark.
 pub const STYLE: &str = include_str!("picture.css");

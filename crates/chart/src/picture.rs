@@ -59,6 +59,15 @@ impl Picture {
         html! { svg viewBox={ "0 0 " (width) " " (height) } role="img" aria-label=(self.label) { "\n" (self.inner) } "\n" }
     }
 
+    /// The same at another width, pixels, with smaller or larger texts; for a [`grid`](crate::grid).
+    pub fn scaled(self, width: f64) -> Self {
+        let (own, height) = self.size;
+        let height_then = height * width / own;
+        let inner =
+            html! { svg width=(width) height=(Px(height_then)) viewBox={ "0 0 " (own) " " (height) } { (self.inner) } };
+        Self { size: (width, height_then), inner, ..self }
+    }
+
     /// The legend for the same page.
     pub fn legend(&self) -> Markup {
         html! {

@@ -38,6 +38,31 @@ fn charts_of_one_point_and_of_no_point_have_axes() {
 }
 
 #[test]
+fn a_region_with_a_hole_is_one_path_and_omits_points_that_are_not_finite() {
+    let square = |size: f64| vec![[-size, -size], [size, -size], [size, size], [-size, size]];
+    let picture = region("a frame", &[square(2.0), square(1.0), vec![[f64::NAN, 0.0]], vec![]]);
+    assert_finite(&picture.standalone());
+    assert!(
+        picture.inner.0.contains("M4.0,692.0 692.0,692.0") && picture.inner.0.contains("evenodd"),
+        "{}",
+        picture.inner.0
+    );
+    assert_finite(&region("nothing", &[]).standalone());
+}
+
+#[test]
+fn drawings_in_one_frame_have_one_scale_whatever_their_size() {
+    let triangle = |size: f64| [[[0.0, 0.0, 0.0], [size, 0.0, 0.0], [0.0, size, 0.0]]];
+    let frame = [[0.0; 3], [4.0, 4.0, 0.0]];
+    let [small, large] = [1.0, 2.0].map(|size| triangles_in_frame("", &triangle(size), &frame).unwrap());
+    assert_eq!(small.size, large.size);
+    assert!(small.inner.0.contains("176.0,692.0") && large.inner.0.contains("348.0,692.0"), "{}", large.inner.0);
+    let half = small.clone().scaled(348.0);
+    assert_eq!(half.size, (348.0, 348.0));
+    assert!(half.inner.0.contains("viewBox=\"0 0 696 696\""), "{}", half.inner.0);
+}
+
+#[test]
 fn titles_are_escaped() {
     assert!(chart(&[1.0]).draw().inner.0.contains("<title>a &lt; b</title>"));
 }

@@ -23,9 +23,14 @@ const MOST: usize = 60_000;
 /// Triangles in space with their edges, seen from above and the right; if all lie in one plane of constant z, seen from above. A depth
 /// buffer leaves hidden ones out. Returns `None` if there is no triangle with finite corners, or over 60 000 are seen.
 pub fn triangles(label: &str, triangles: &[[Point; 3]]) -> Option<Picture> {
+    triangles_in_frame(label, triangles, &[])
+}
+
+/// The same, with these points inside the drawing too, so that drawings with the same points have the same scale.
+pub fn triangles_in_frame(label: &str, triangles: &[[Point; 3]], frame: &[Point]) -> Option<Picture> {
     let finite: Vec<[Point; 3]> =
         triangles.iter().filter(|corners| corners.iter().flatten().all(|x| x.is_finite())).copied().collect();
-    let view = View::of(&finite)?;
+    let view = View::of(&finite, frame)?;
     let placed: Vec<[Point; 3]> = finite.iter().map(|corners| corners.map(|x| view.place(x))).collect();
     let mut seen = visible(&placed);
     if seen.len() > MOST {
@@ -52,8 +57,8 @@ struct View {
 }
 
 impl View {
-    fn of(triangles: &[[Point; 3]]) -> Option<Self> {
-        let corners = || triangles.iter().flatten();
+    fn of(triangles: &[[Point; 3]], frame: &[Point]) -> Option<Self> {
+        let corners = || triangles.iter().flatten().chain(frame);
         let [first, ..] = *triangles.first()?;
         let is_plane = corners().all(|x| x[2] == first[2]);
         let axes = if is_plane {

@@ -87,6 +87,10 @@ macro_rules! law_parameters {
             young,
             /// Poisson's ratio at small strain, above −1 and below 0.5, or 0.5 with `volumetric = "mixed"`. Linear tetrahedra lock above 0.45, and a warning says so.
             poisson,
+            /// Lamé's first constant λ at small strain, Pa, above −2μ/3; with `mu` in place of `young` and `poisson`.
+            lambda,
+            /// Lamé's second constant μ at small strain, the shear modulus, Pa; positive.
+            mu,
             /// Neo-Hookean and Gent: half the shear modulus at small strain, Pa; positive.
             C,
             /// Mooney–Rivlin: factor of Ī1 − 3, Pa.
@@ -144,6 +148,9 @@ pub struct LawFacts {
 
 /// Young's modulus and Poisson's ratio of small strain.
 const ELASTIC: &[&str] = &["young", "poisson"];
+
+/// Lamé's constants in place of them.
+const LAME: &[&str] = &["lambda", "mu"];
 
 /// The names of an Ogden term's factor and exponent.
 const OGDEN_TERMS: [[&str; 2]; 3] = [["mu1", "alpha1"], ["mu2", "alpha2"], ["mu3", "alpha3"]];
@@ -248,6 +255,11 @@ impl Elastic {
         Self { young, poisson }
     }
 
+    /// Moduli from Lamé's constants, Pa: E = μ (3λ + 2μ)/(λ + μ) and ν = λ/(2(λ + μ)).
+    pub fn of_lame(lambda: f64, mu: f64) -> Self {
+        Self::new(mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 0.5 * lambda / (lambda + mu))
+    }
+
     /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa. In plane stress, λ is that of the law after the strain across the
     /// plane has been eliminated, 2λμ/(λ+2μ) = Eν/(1−ν²): Timoshenko and Goodier, Theory of Elasticity (1970), §15 f. With ν = ½, λ is 10⁸ μ.
     pub fn lame(self, plane: PlaneState) -> [f64; 2] {
@@ -280,7 +292,10 @@ fn number(given: &Given, name: &str) -> f64 {
 }
 
 fn elastic(given: &Given) -> Elastic {
-    Elastic::new(number(given, "young"), number(given, "poisson"))
+    match (given("lambda"), given("mu")) {
+        (Some(lambda), Some(mu)) => Elastic::of_lame(lambda, mu),
+        _ => Elastic::new(number(given, "young"), number(given, "poisson")),
+    }
 }
 
 /// Σ μ α/2, Pa
@@ -303,7 +318,7 @@ impl Law {
             volume: Option<VolumeEnergy>,
             of: fn(&Given) -> Law,
         ) -> LawFacts {
-            LawFacts { name, parameters: &[ELASTIC], has_plane_stress, volume, of }
+            LawFacts { name, parameters: &[ELASTIC, LAME], has_plane_stress, volume, of }
         }
         const fn of(
             name: &'static str,
@@ -316,7 +331,7 @@ impl Law {
             of_elastic("linear", true, Some(Trace), |given| Self::Linear(elastic(given))),
             of_elastic("corotated", true, None, |given| Self::Corotated(elastic(given))),
             of_elastic("st_venant_kirchhoff", false, None, |given| Self::StVenantKirchhoff(elastic(given))),
-            of("neo_hookean", &[&["C", "D"], ELASTIC], |given| {
+            of("neo_hookean", &[&["C", "D"], ELASTIC, LAME], |given| {
                 Self::NeoHookean(match (given("C"), given("D")) {
                     (Some(C), Some(D)) => NeoHookean::Moduli { C, D },
                     _ => NeoHookean::Elastic(elastic(given)),

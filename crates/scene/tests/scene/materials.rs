@@ -1,5 +1,7 @@
 //! `[[materials]]`: the elements of each, and its errors at their lines.
 
+use fem_model::Law;
+
 use crate::errors::assert_refused;
 use crate::{LEAST, body, edit};
 
@@ -126,8 +128,30 @@ fn springs_have_a_stiffness_or_a_modulus_and_a_damping() {
     assert_refused(
         &foreign,
         6,
-        "material.stiffness belongs to mass_spring; give this model C and D or young and poisson",
+        "material.stiffness belongs to mass_spring; give this model C and D or young and poisson or lambda and mu",
     );
+}
+
+#[test]
+fn every_law_with_youngs_modulus_takes_lames_constants_in_its_place() {
+    for facts in Law::FACTS.iter().filter(|facts| facts.parameters.iter().any(|set| set.contains(&"young"))) {
+        let with = |parameters: &str| {
+            let model = format!("model = \"{}\"\n{parameters}", facts.name);
+            edit(LEAST, "model = \"neo_hookean\"\nC = 1e5\nD = 4e5", &model).replace("\"course\"", "\"engine\"")
+        };
+        let [given, of_lame] = ["young = 112500\npoisson = 0.25", "lambda = 45000\nmu = 45000"]
+            .map(|parameters| crate::read(&with(parameters)).material.value().law);
+        assert_eq!(given, of_lame, "{}", facts.name);
+        for (parameters, message) in [
+            ("lambda = 1e4", "lambda and mu"),
+            ("lambda = 1e4\nyoung = 1e4", "lambda and mu"),
+            ("lambda = -1e5\nmu = 1e5", "material.lambda is -1e5 Pa; give more than -2/3 of mu"),
+            ("lambda = 1e5\nmu = 0", "material.mu is 0; give a positive number of Pa"),
+        ] {
+            let error = fem_scene::parse(&with(parameters), "scene.toml".as_ref()).unwrap_err().to_string();
+            assert!(error.contains(message), "{parameters}: {error}");
+        }
+    }
 }
 
 #[test]

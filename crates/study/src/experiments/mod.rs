@@ -1,6 +1,7 @@
 //! Experiments beside figures of others: those of the theses from which this software descends, and published benchmarks.
 
 pub mod benchmarks;
+mod drawing;
 pub mod flat;
 mod mistake;
 pub mod rtfem;

@@ -3,10 +3,13 @@
 use std::io;
 use std::path::Path;
 
-use fem_chart::page::{figure, page, table};
+use fem_chart::page::{details, figure, page, table};
 use maud::{Markup, html};
 
 use super::{Mark, Page, Part};
+
+/// Rows of a table that a page shows at once; a longer one is opened by the reader.
+const LONG: usize = 40;
 
 /// Writes the page, the tables (`.csv`) and the pictures (`.svg`) into a folder.
 pub fn write(of: &Page, folder: &Path) -> io::Result<()> {
@@ -51,6 +54,9 @@ fn chapter(part: &Part) -> Markup {
         p { (part.text) } "\n"
         (table(&["mark", "source", "here", ""], &part.marks.iter().map(line).collect::<Vec<_>>()))
         div class="charts" { @for shown in &part.figures { (figure(&shown.picture, &shown.caption)) } } "\n"
-        @for numbers in &part.tables { (numbers.html()) }
+        @for numbers in &part.tables {
+            @if numbers.rows.len() > LONG { (details(&format!("{}.csv, {} rows", numbers.name, numbers.rows.len()), numbers.html())) }
+            @else { (numbers.html()) }
+        }
     }
 }

@@ -91,10 +91,11 @@ pub fn young(scene: &Scene) -> Option<f64> {
     lame(scene).map(|(lambda, mu)| mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu)).or(scene.material.young)
 }
 
-/// Lamé's constants λ and μ of the law at small strain, Pa: of `young` and `poisson`, or of `C` and `D`.
+/// Lamé's constants λ and μ of the law at small strain, Pa: as given, of `young` and `poisson`, or of `C` and `D`.
 fn lame(scene: &Scene) -> Option<(f64, f64)> {
     let material = &scene.material;
     match (material.young, material.poisson, material.C, material.D) {
+        _ if material.lambda.is_some() => material.lambda.zip(material.mu),
         (Some(young), Some(nu), ..) => Some((young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), young / (2.0 * (1.0 + nu)))),
         (_, _, Some(c), Some(d)) => Some((2.0 * d - 4.0 / 3.0 * c, 2.0 * c)),
         _ => None,
@@ -158,6 +159,8 @@ fn moduli(scene: &Scene, key: &str, value: f64) -> Result<Vec<Override>, String>
     }
     let [(a, first), (b, second)] = if scene.material.C.is_some() {
         [("C", 0.5 * mu), ("D", 0.5 * lambda + mu / 3.0)]
+    } else if scene.material.mu.is_some() {
+        [("lambda", lambda), ("mu", mu)]
     } else {
         [("young", mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu)), ("poisson", 0.5 * lambda / (lambda + mu))]
     };
@@ -211,13 +214,19 @@ integrator = "implicit_euler"
 
     #[test]
     fn every_parameter_reaches_the_scene() {
-        let scene = scene();
-        for parameter in parameters(&scene, &scene) {
+        let of_lame = SCENE.replace("young = 112500.0\npoisson = 0.25", "lambda = 45000.0\nmu = 45000.0");
+        for scene in [scene(), fem_scene::parse(&of_lame, "flat.toml".as_ref()).unwrap()] {
+            reach(&scene);
+        }
+    }
+
+    fn reach(scene: &Scene) {
+        for parameter in parameters(scene, scene) {
             let wanted = if parameter.key == "improve" { 7.0 } else { 1.25 * parameter.value };
-            let next = changed(&scene, &Change::Number(parameter.key, wanted));
+            let next = changed(scene, &Change::Number(parameter.key, wanted));
             let found = value(&next, parameter.key);
             assert!((found - wanted).abs() <= 1e-12 * wanted, "{}: {found} and not {wanted}", parameter.key);
-            for other in parameters(&scene, &scene).into_iter().filter(|other| other.key != parameter.key) {
+            for other in parameters(scene, scene).into_iter().filter(|other| other.key != parameter.key) {
                 let now = value(&next, other.key);
                 assert!((now - other.value).abs() <= 1e-12 * other.value, "{} changed {}", parameter.key, other.key);
             }

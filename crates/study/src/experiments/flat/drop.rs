@@ -1,17 +1,17 @@
 //! The five objects, dropped from 2 m between three planes, until they rest.
 
-use std::collections::HashMap;
 use std::path::Path;
 
-use fem_chart::{Axis, Chart, Series};
+use fem_chart::{Picture, grid};
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::PictureMesh;
 use fem_model::simulation::{Diagnostics, Simulation};
 use nalgebra::Vector2;
 
 use super::object::{DENSITY, LAME, OBJECTS, meshed, picture, simulator};
+use crate::experiments::drawing::{Triangle, band, drawn, elements};
 use crate::scenes::step;
-use crate::study::{Mark, Part, Table};
+use crate::study::{Figure, Mark, Part, Table};
 
 /// Length of the edges, m, for a height of 1 m.
 const EDGE: f64 = 0.1;
@@ -33,6 +33,8 @@ const REST: f64 = 1e-3;
 const GRAVITY: f64 = 9.81;
 /// Largest relative difference of the vertical forces of the planes and the weight at rest.
 const BALANCE: f64 = 1e-6;
+/// Largest relative change of the normal forces of friction: a step is repeated until theirs is below it.
+const LAG: f64 = 1e-6;
 /// Normals of the planes, each of length 5.
 const NORMALS: [[f64; 2]; 3] = [[0.0, 5.0], [4.0, 3.0], [-4.0, 3.0]];
 
@@ -50,8 +52,8 @@ struct Fallen {
     balance: [f64; 2],
     /// Largest relative change with which the lag of friction has ended.
     lag: f64,
-    /// Outlines at the end, and the planes' lines.
-    outlines: Vec<Vec<Vector2<f64>>>,
+    /// Triangles at the end, and the planes' lines.
+    drawn: Vec<Triangle>,
     planes: Vec<Vector2<f64>>,
 }
 
@@ -76,6 +78,11 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
                 format!("{:.1e}", body.balance[0]),
                 body.balance[0] <= BALANCE,
             ),
+            Mark::new(
+                format!("{name}: the lag of friction has converged, its residual at most {LAG:e}"),
+                format!("{:.1e}", body.lag),
+                body.lag <= LAG,
+            ),
         ]);
     }
     let text = format!(
@@ -99,14 +106,15 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
         ],
     );
     let caption = format!("The bodies after {DURATION} s.");
-    Ok(Part::new(text).marks(marks).tables([table]).chart("flat-drop", &chart(&fallen), caption))
+    let figure = Figure { name: "flat-drop".to_owned(), picture: pictures(&fallen)?, caption };
+    Ok(Part::new(text).marks(marks).tables([table]).figures([figure]))
 }
 
 fn fall(data: &Path, name: &'static str) -> Result<Fallen, String> {
     let mesh = meshed(&picture(data, name)?, EDGE, 5)?;
     let centre = centre(&mesh);
     let method = format!("integrator = \"implicit_euler\"\ndt = {:e}", 1.0 / FRAMES);
-    let mut simulation = simulator(&mesh, LAME, &method, &tables(centre))?;
+    let mut simulation = simulator(&mesh.mesh, LAME, &method, &tables(centre))?;
     let area: f64 = simulation.shape().mesh.volumes().iter().sum();
     let weight = DENSITY * area * GRAVITY;
     let (mut smallest_gap, mut at_rest, mut balance) = (f64::INFINITY, None, [f64::INFINITY; 2]);
@@ -120,7 +128,7 @@ fn fall(data: &Path, name: &'static str) -> Result<Fallen, String> {
         at_rest = if is_at_rest { at_rest.or(Some(simulation.time())) } else { None };
     }
     let corner = |side: f64| centre + OFFSET * Vector2::new(side * 0.5, -1.0);
-    let top = |side: f64| corner(side) + Vector2::new(side * 0.9, 1.2);
+    let top = |side: f64| corner(side) + Vector2::new(side * 0.27, 0.36);
     Ok(Fallen {
         name,
         triangles: mesh.mesh.elements.len(),
@@ -129,7 +137,7 @@ fn fall(data: &Path, name: &'static str) -> Result<Fallen, String> {
         speed: simulation.velocities().amax(),
         balance,
         lag: simulation.lag_residual().unwrap_or(0.0),
-        outlines: outlines(&simulation),
+        drawn: elements(&simulation),
         planes: vec![top(-1.0), corner(-1.0), corner(1.0), top(1.0)],
     })
 }
@@ -166,44 +174,15 @@ fn tables(centre: Vector2<f64>) -> String {
     )
 }
 
-/// The closed lines around a body and its holes.
-fn outlines(simulation: &Simulator<f64>) -> Vec<Vec<Vector2<f64>>> {
-    let (shape, q) = (simulation.shape(), simulation.positions());
-    let mut next: HashMap<usize, usize> = shape.mesh.faces().iter().map(|edge| (edge[0], edge[1])).collect();
-    let mut loops = Vec::new();
-    while let Some(&first) = next.keys().min() {
-        let (mut line, mut node) = (Vec::new(), first);
-        while let Some(following) = next.remove(&node) {
-            line.push(Vector2::new(q[3 * node], q[3 * node + 1]));
-            node = following;
-        }
-        line.push(line[0]);
-        loops.push(line);
-    }
-    loops
-}
-
-/// The bodies side by side, to one scale.
-fn chart(fallen: &[Fallen]) -> Chart {
-    let width = 5.2;
-    let mut series = Vec::new();
-    for (number, body) in fallen.iter().enumerate() {
-        let centre = 0.5 * (body.planes[1] + body.planes[2]);
-        let shift = Vector2::new(width * (number as f64 + 0.5), 0.0) - centre;
-        let curve = |name: &str, colour: usize, line: &[Vector2<f64>]| {
-            let placed = line.iter().map(|x| x + shift);
-            Series::line(name, colour, placed.map(|x| (x.x, x.y)))
-        };
-        series.push(curve("", 8, &body.planes));
-        for (i, line) in body.outlines.iter().enumerate() {
-            series.push(curve(if i == 0 { body.name } else { "" }, number, line));
-        }
-    }
-    let range = width * fallen.len() as f64;
-    let mut chart = Chart::new("bodies at rest between three planes", Axis::linear("x (m)"), Axis::linear("y (m)"));
-    (chart.x.range, chart.y.range) = (Some((0.0, range)), Some((-0.2, 1.6)));
-    // The margins of a chart are 76 and 72 pixels.
-    chart.size = (200.0 * fallen.len() as f64 + 76.0, 200.0 / width * 1.8 + 72.0);
-    chart.series = series;
-    chart
+/// The bodies one after the other, to one scale.
+fn pictures(fallen: &[Fallen]) -> Result<Picture, String> {
+    let picture = |body: &Fallen| {
+        let [left, right] = [body.planes[1], body.planes[2]];
+        let ways = body.planes.windows(2).flat_map(|ends| band(ends[0], ends[1], 0.04));
+        let shown: Vec<Triangle> = body.drawn.iter().copied().chain(ways).collect();
+        let corner = |x: Vector2<f64>, dx: f64, dy: f64| [x.x + dx, x.y + dy, 0.0];
+        drawn(body.name, &shown, [corner(left, -0.3, -0.05), corner(right, 0.3, 1.1)])
+    };
+    let all = fallen.iter().map(picture).collect::<Result<Vec<_>, _>>()?;
+    Ok(grid("bodies at rest between three planes", 2, &all))
 }

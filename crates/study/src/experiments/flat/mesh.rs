@@ -1,38 +1,45 @@
 //! Quality of the triangles of the five objects in each iteration of optimal Delaunay triangulation.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
 use fem_mesh::generate::odt::OdtStep;
 use fem_mesh::generate::picture::PictureMesh;
-use fem_mesh::triangle_quality;
+use fem_mesh::{Mesh, triangle_quality};
 use nalgebra::Vector2;
 
 use super::object::{OBJECTS, meshed, picture};
+use super::start::smoothed;
 use crate::study::{Mark, Part, Table};
 
 /// Iterations that are shown.
-const ITERATIONS: usize = 20;
+pub const ITERATIONS: usize = 20;
 /// Length of the edges, m, for a height of 1 m.
 const EDGE: f64 = 0.02;
 /// Iterations of the thesis' smoothing.
-const THEIRS: usize = 7;
+pub const THEIRS: usize = 7;
 
 /// Meshes each object with 20 iterations.
 pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
     let objects = if quick { &OBJECTS[2..3] } else { &OBJECTS[..] };
     let (mut rows, mut marks, mut series) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut from_scattered, mut figures) = (Vec::new(), Vec::new());
     for (number, &name) in objects.iter().enumerate() {
         let picture = picture(data, name)?;
         let before = meshed(&picture, EDGE, 0)?;
         let after = meshed(&picture, EDGE, ITERATIONS)?;
-        rows.extend(after.steps.iter().enumerate().map(|(iteration, step)| (name, iteration, *step)));
+        rows.extend(all_iterations(name, &after.steps));
         let dots = after.steps.iter().enumerate().map(|(iteration, step)| {
             let title = format!("{name}, iteration {iteration}\nworst R/l {:.3}", step.worst_radius_to_edge);
             Dot::new(iteration as f64, step.worst_radius_to_edge, title)
         });
         series.push(Series::joined(name, (number, number), dots));
         marks.extend(judge(name, &before, &after));
+        let scattered = smoothed(data, name)?;
+        from_scattered.extend(all_iterations(name, &scattered.steps));
+        marks.extend(scattered.marks());
+        figures.push(scattered.figure()?);
     }
     let mut chart = Chart::new(
         "worst circumradius over shortest edge in each iteration",
@@ -48,18 +55,23 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
         "Circumradius over shortest edge, R/l = 1/(2 sin θ) of the smallest angle θ, for edges of {EDGE} m and a height of 1 m. The thesis gives \
          about 0.5 for the best triangle, which no triangle has: an equilateral one has 0.577. It leaves triangles of R/l > 3 out at the end and has the factor \
          1/4 of space in its energy; here nothing is left out, and boundary points slide along the contour. Only corners of triangles with \
-         R/l > 0.7 move once the median is below 0.6, which ends the iterations early."
+         R/l > 0.7 move once the median is below 0.6, which ends the iterations early; \
+         later rows repeat the last. The boundary's points and random ones inside, whose Delaunay triangulation does not depend on the algorithm, Bowyer–Watson or another, are a start \
+         without any care: flat-mesh-scattered and the pictures."
     );
-    Ok(Part::new(text).marks(marks).tables([table(&rows)]).chart(
-        "flat-mesh",
-        &chart,
-        "The worst triangle of each object.",
-    ))
+    let tables = [table("flat-mesh", &rows), table("flat-mesh-scattered", &from_scattered)];
+    let part = Part::new(text).marks(marks).tables(tables).figures(figures);
+    Ok(part.chart("flat-mesh", &chart, "The worst triangle of each object."))
 }
 
-fn table(rows: &[(&str, usize, OdtStep)]) -> Table {
+/// The measures of iterations 0 to 20. Iterations after the last one that moved a vertex have its measures.
+fn all_iterations<'a>(name: &'a str, steps: &[OdtStep]) -> Vec<(&'a str, usize, OdtStep)> {
+    (0..=ITERATIONS).map(move |iteration| (name, iteration, steps[iteration.min(steps.len() - 1)])).collect()
+}
+
+fn table(name: &str, rows: &[(&str, usize, OdtStep)]) -> Table {
     Table::of(
-        "flat-mesh",
+        name,
         rows,
         &[
             ("object", &|(name, ..)| (*name).to_owned()),
@@ -95,12 +107,17 @@ fn judge(name: &str, before: &PictureMesh, after: &PictureMesh) -> Vec<Mark> {
     ]
 }
 
+/// The ends of each edge of the boundary, in the order of the triangles.
+pub fn boundary(mesh: &Mesh<2, 3>) -> Vec<[Vector2<f64>; 2]> {
+    let sides = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
+    let all: HashSet<[usize; 2]> = mesh.elements.iter().flat_map(sides).collect();
+    let outer = mesh.elements.iter().flat_map(sides).filter(|[a, b]| !all.contains(&[*b, *a]));
+    outer.map(|edge| edge.map(|i| mesh.vertices[i])).collect()
+}
+
 /// Hausdorff distance between the boundary of a mesh and the contours of its picture, in pixels.
 fn contour_distance(found: &PictureMesh) -> f64 {
-    let sides = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
-    let all: std::collections::HashSet<[usize; 2]> = found.mesh.elements.iter().flat_map(sides).collect();
-    let boundary = all.iter().filter(|[a, b]| !all.contains(&[*b, *a]));
-    let boundary: Vec<_> = boundary.map(|edge| edge.map(|i| found.mesh.vertices[i])).collect();
+    let boundary = boundary(&found.mesh);
     let closed = |points: &Vec<Vector2<f64>>| {
         (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]).collect::<Vec<_>>()
     };

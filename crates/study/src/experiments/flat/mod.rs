@@ -9,7 +9,10 @@ mod modulus;
 mod object;
 mod plasticity;
 mod speed;
+mod square;
 mod stability;
+mod start;
+mod sweep;
 
 use super::Collection;
 
@@ -27,6 +30,7 @@ pub const THESIS: Collection = Collection {
         ("convergence", "Errors of linear and of quadratic triangles", convergence::run),
         ("plasticity", "Plastic flow", plasticity::run),
         ("drop", "Dropped bodies", drop::run),
+        ("sweep", "One parameter at a time", sweep::run),
         ("contact", "Contact and friction", contact::run),
         ("mistakes", "Each mistake, with its figures", mistakes::run),
     ],

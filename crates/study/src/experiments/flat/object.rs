@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
-use fem_mesh::SurfaceMesh;
 use fem_mesh::generate::picture::{FromPicture, Picture, PictureMesh, mesh_picture, read_picture};
+use fem_mesh::{Mesh, SurfaceMesh};
 use fem_model::BodyMesh;
 
 use crate::scenes::double;
@@ -27,14 +27,14 @@ pub fn meshed(picture: &Picture, edge: f64, improve: usize) -> Result<PictureMes
 }
 
 /// A corotated body of 1 m thickness with λ = μ, which has ν = 1/4 and E = 2.5 μ; its mass is lumped.
-pub fn simulator(mesh: &PictureMesh, lame: f64, method: &str, rest: &str) -> Result<Simulator<f64>, String> {
+pub fn simulator(mesh: &Mesh<2, 3>, lame: f64, method: &str, rest: &str) -> Result<Simulator<f64>, String> {
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"corotated\"\n\
          young = {:e}\npoisson = 0.25\ndensity = {DENSITY}\n[time]\n{method}\n[mass]\nlumped = true\n{rest}",
         2.5 * lame
     );
-    let vertices = mesh.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
-    let triangles = SurfaceMesh::new(vertices, mesh.mesh.elements.clone());
+    let vertices = mesh.vertices.iter().map(|x| x.push(0.0)).collect();
+    let triangles = SurfaceMesh::new(vertices, mesh.elements.clone());
     double(&text, Some(BodyMesh::flat(triangles, 1.0)))
 }
 

@@ -32,7 +32,7 @@ fn timed(data: &Path, quick: bool) -> Result<Part, String> {
     for edge in &EDGES[..if quick { 2 } else { EDGES.len() }] {
         let mesh = meshed(&picture, *edge, 5)?;
         let method = "integrator = \"semi_implicit_euler\"\ndt = 1e-5";
-        let mut simulation = simulator(&mesh, LAME, method, "")?;
+        let mut simulation = simulator(&mesh.mesh, LAME, method, "")?;
         disturb(&mut simulation, 1e-6);
         let mut frames = Vec::new();
         for _ in 0..if quick { 3 } else { FRAMES } {

@@ -3,14 +3,15 @@
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
-use fem_mesh::generate::picture::PictureMesh;
+use fem_mesh::Mesh;
 use fem_model::simulation::{Diagnostics, Simulation};
 
 use super::object::{LAME, OBJECTS, disturb, meshed, picture, simulator};
+use super::square;
 use crate::study::{Mark, Part, Table};
 
 /// Frames in a second, frames of a stable run, and frames after which growth must show.
-const FRAMES: f64 = 60.0;
+pub const FRAMES: f64 = 60.0;
 const RUN: usize = 20;
 const LONG_RUN: usize = 60;
 /// Length of the edges, m, for a height of 1 m.
@@ -29,7 +30,7 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
     let (mut rows, mut wrong, mut implicit, mut judged) = (Vec::new(), Vec::new(), 0, 0);
     let objects = if quick { &OBJECTS[4..] } else { &OBJECTS[..] };
     for name in objects {
-        let mesh = meshed(&picture(data, name)?, EDGE, 5)?;
+        let mesh = meshed(&picture(data, name)?, EDGE, 5)?.mesh;
         for lame in [0.1 * LAME, LAME, 10.0 * LAME] {
             let undamped = limit(&mesh, lame, "")?;
             // The limit without damping is 2/ω, and ξ = β ω/2.
@@ -51,7 +52,7 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
                 let told = |lives: bool| if lives { "lives" } else { "explodes" };
                 rows.push(vec![
                     (*name).to_owned(),
-                    format!("{}", mesh.mesh.elements.len()),
+                    format!("{}", mesh.elements.len()),
                     format!("{lame:.0}"),
                     words.to_owned(),
                     format!("{:.3}", 1e3 * limit),
@@ -77,15 +78,16 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
     ];
     let head =
         ["object", ">triangles", ">λ = μ (Pa)", "damping", ">stable dt (ms)", ">N", "N substeps", "N − 1 substeps"];
-    Ok(Part::new(text).marks(marks).tables([Table::new("flat-stability", &head, rows)]))
+    square::add(Part::new(text).marks(marks).tables([Table::new("flat-stability", &head, rows)]))
 }
 
-fn method(name: &str, substeps: usize) -> String {
+/// The table `[time]` of a method with so many substeps in a frame.
+pub fn method(name: &str, substeps: usize) -> String {
     format!("integrator = \"{name}\"\ndt = {:e}", 1.0 / FRAMES / substeps as f64)
 }
 
 /// The longest stable time step, s.
-fn limit(mesh: &PictureMesh, lame: f64, damping: &str) -> Result<f64, String> {
+pub fn limit(mesh: &Mesh<2, 3>, lame: f64, damping: &str) -> Result<f64, String> {
     let simulation = simulator(mesh, lame, &method("semi_implicit_euler", 1), damping)?;
     simulation.critical_time_step().ok_or_else(|| "the body has no stiffness".to_owned())
 }
@@ -101,8 +103,8 @@ fn grows(omega: f64, ratio: f64, substeps: usize) -> bool {
 }
 
 /// Returns true if a disturbed body stays near its undeformed shape for a number of frames with so many substeps.
-fn lives(
-    mesh: &PictureMesh,
+pub fn lives(
+    mesh: &Mesh<2, 3>,
     lame: f64,
     damping: &str,
     integrator: &str,

@@ -11,6 +11,7 @@ mod momentum;
 mod picture;
 mod precision;
 mod setting;
+mod slivers;
 mod speed;
 mod steps;
 mod structures;
@@ -32,6 +33,7 @@ pub const THESIS: Collection = Collection {
         ("materials", "Materials", materials::run),
         ("structures", "Other bodies", structures::run),
         ("picture", "Pictures", picture::run),
+        ("slivers", "Shapes of tetrahedra", slivers::run),
         ("methods", "Which method for what", methods::run),
         ("modulus", "Stiffness by iterations", modulus::run),
         ("momentum", "Momentum of a free body", momentum::run),

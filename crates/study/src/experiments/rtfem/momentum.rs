@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use fem_mesh::TetrahedralMesh;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
@@ -9,7 +10,7 @@ use super::methods::block;
 use crate::scenes::simulation;
 use crate::study::{Mark, Part, Table};
 
-const DENSITY: f64 = 1000.0;
+pub const DENSITY: f64 = 1000.0;
 const CELLS: [usize; 3] = [4, 2, 2];
 const EDGE: f64 = 0.5;
 
@@ -115,10 +116,7 @@ fn mark((name, .., promise): &Method, drift: &Drift) -> Mark {
 
 fn drift(&(name, model, integrator, tables, _): &Method) -> Result<Drift, String> {
     let mesh = block(CELLS, EDGE);
-    let mut masses = vec![0.0; mesh.vertices.len()];
-    for (element, volume) in mesh.elements.iter().zip(fem_mesh::volumes(&mesh)) {
-        element.iter().for_each(|&node| masses[node] += 0.25 * DENSITY * volume);
-    }
+    let masses = lumped(&mesh);
     let poisson = if model == "mass_spring" { "" } else { "poisson = 0.25\n" };
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"{model}\"\nyoung = 1e5\n{poisson}\
@@ -135,8 +133,17 @@ fn drift(&(name, model, integrator, tables, _): &Method) -> Result<Drift, String
     Ok(Drift { linear: (after.0 - before.0).norm() / before.2, angular: (after.1 - before.1).norm() / before.1.norm() })
 }
 
+/// Lumped masses of the nodes, kg.
+pub fn lumped(mesh: &TetrahedralMesh) -> Vec<f64> {
+    let mut masses = vec![0.0; mesh.vertices.len()];
+    for (element, volume) in mesh.elements.iter().zip(fem_mesh::volumes(mesh)) {
+        element.iter().for_each(|&node| masses[node] += 0.25 * DENSITY * volume);
+    }
+    masses
+}
+
 /// Σ m v, Σ m x × v and Σ m |v|.
-fn momenta(simulation: &dyn Simulation, masses: &[f64]) -> (Vector3<f64>, Vector3<f64>, f64) {
+pub fn momenta(simulation: &dyn Simulation, masses: &[f64]) -> (Vector3<f64>, Vector3<f64>, f64) {
     let (x, v) = (simulation.positions(), simulation.velocities());
     let mut sums = (Vector3::zeros(), Vector3::zeros(), 0.0);
     for (node, mass) in masses.iter().enumerate() {

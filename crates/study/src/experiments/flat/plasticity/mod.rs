@@ -4,6 +4,7 @@ pub mod cylinder;
 pub mod motion;
 pub mod paths;
 pub mod relaxation;
+mod tension;
 
 use std::path::Path;
 
@@ -30,6 +31,8 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     add_motion(&mut marks, &mut tables, quick)?;
     add_cylinder(&mut marks, &mut tables)?;
     add_paths(&mut marks, &mut tables, PATHS[usize::from(quick)]);
+    let (curve, of_curve) = tension::tension()?;
+    marks.extend(of_curve);
     let text = format!(
         "The additive model has a yield strain y = {YIELD}, a creep rate c and a maximum. The thesis lets the plastic strain flow by the whole elastic \
          strain as long as that exceeds y, so that it falls below y, the farther the longer the substep; here the excess over y flows, exactly over a step. \
@@ -37,7 +40,8 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
          cylinder under internal pressure with the limit load (2 σ_y/√3) ln(b/a) (Hill 1950), and random paths of strain."
     );
     let caption = "The elastic strain of a strip of constant strain, and that of the thesis' rule with 10 substeps at 60 frames a second.";
-    Ok(Part::new(text).marks(marks).tables(tables).chart("flat-plasticity", &relaxation_chart(&fine), caption))
+    let part = Part::new(text).marks(marks).tables(tables).chart("flat-plasticity", &relaxation_chart(&fine), caption);
+    Ok(part.figures([curve]))
 }
 
 /// Bound, dissipation, order and release of moving bodies.
