@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     let Arguments { command, book } = Arguments::parse();
     let ended = match (book, command) {
         (Some(page), _) => book::write(&page, &cli::without_book(std::env::args().skip(1))),
-        (None, command) => run(command),
+        (None, command) => carry_out(command),
     };
     match ended {
         Ok(()) => ExitCode::SUCCESS,
@@ -40,7 +40,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(command: Command) -> Result<(), End> {
+fn carry_out(command: Command) -> Result<(), End> {
     match command {
         Command::Course(arguments) => course::run(&arguments),
         Command::Peers(arguments) => peers::run(&arguments),
