@@ -63,8 +63,7 @@ impl Picture {
     pub fn scaled(self, width: f64) -> Self {
         let (own, height) = self.size;
         let height_then = height * width / own;
-        let inner =
-            html! { svg width=(width) height=(Px(height_then)) viewBox={ "0 0 " (own) " " (height) } { (self.inner) } };
+        let inner = html! { svg width=(width) height=(Px(height_then)) overflow="visible" viewBox={ "0 0 " (own) " " (height) } { (self.inner) } };
         Self { size: (width, height_then), inner, ..self }
     }
 

@@ -45,7 +45,11 @@ fn a_key_that_is_missing_is_reported_at_its_table() {
         9,
         "time.dt is missing, and implicit_euler needs a time step; give it in seconds",
     );
-    assert_refused(&edit(LEAST, "D = 4e5\n", ""), 4, "material needs either C and D or young and poisson or lambda and mu");
+    assert_refused(
+        &edit(LEAST, "D = 4e5\n", ""),
+        4,
+        "material needs either C and D or young and poisson or lambda and mu",
+    );
     assert_refused(&edit(LEAST, "box = { size = [2, 1, 1], cells_per_unit = 1 }\n", ""), 2, "mesh names no elements");
     assert_refused(&format!("{LEAST}[fixed]\n"), 12, "fixed needs one of plane, on, box, sphere, set and nodes; give");
 }

@@ -47,7 +47,8 @@ fn render(of: &Page) -> String {
 fn chapter(part: &Part) -> Markup {
     let line = |mark: &Mark| {
         let holds = html! { @if mark.holds == Some(false) { b { (mark.verdict()) } } @else { (mark.verdict()) } };
-        vec![html! { (mark.statement) }, html! { (mark.theirs) }, html! { (mark.ours) }, holds]
+        let wrapped = |text: &str| html! { div class="wide" { (text) } };
+        vec![wrapped(&mark.statement), html! { (mark.theirs) }, wrapped(&mark.ours), holds]
     };
     html! {
         h2 { (part.title) }
