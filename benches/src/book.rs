@@ -33,9 +33,9 @@ fn around<'a>(text: &'a str, arguments: &[String]) -> Option<(&'a str, &'a str)>
         place += line.len();
         let named = line.trim_end().strip_prefix(START).and_then(|rest| rest.strip_suffix(" -->"));
         if named.is_some_and(|named| is_same(named, arguments)) {
-            let end = text[place..].find(&format!("\n{END}"))? + 1;
+            let end = place + text[place - 1..].find(&format!("\n{END}"))?;
             // The end of another command is not this one's.
-            return (!text[place..place + end].contains("<!-- $ ")).then(|| (&text[..place], &text[place + end..]));
+            return (!text[place..end].contains("<!-- $ ")).then(|| (&text[..place], &text[end..]));
         }
     }
     None
