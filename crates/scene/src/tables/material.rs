@@ -125,7 +125,7 @@ impl MaterialTable {
         if let (Some(lambda), Some(mu)) = (self.lambda, self.mu) {
             check_positive(&format!("{table}.mu"), mu, " of Pa")?;
             if !(3.0 * lambda + 2.0 * mu > 0.0 && lambda.is_finite()) {
-                return problem(&format!("{table}.lambda"), &format!("is {lambda:e} Pa; give more than -2/3 of mu"));
+                return problem(&format!("{table}.lambda"), format!("is {lambda:e} Pa; give more than -2/3 of mu"));
             }
         }
         self.value().check(table)

@@ -1,5 +1,7 @@
 //! Quality of the triangles of the five objects in each iteration of optimal Delaunay triangulation.
 
+mod start;
+
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -10,15 +12,15 @@ use fem_mesh::{Mesh, triangle_quality};
 use nalgebra::Vector2;
 
 use super::object::{OBJECTS, meshed, picture};
-use super::start::smoothed;
 use crate::study::{Mark, Part, Table};
+use start::smoothed;
 
 /// Iterations that are shown.
-pub const ITERATIONS: usize = 20;
+const ITERATIONS: usize = 20;
 /// Length of the edges, m, for a height of 1 m.
 const EDGE: f64 = 0.02;
 /// Iterations of the thesis' smoothing.
-pub const THEIRS: usize = 7;
+const THEIRS: usize = 7;
 
 /// Meshes each object with 20 iterations.
 pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
@@ -108,7 +110,7 @@ fn judge(name: &str, before: &PictureMesh, after: &PictureMesh) -> Vec<Mark> {
 }
 
 /// The ends of each edge of the boundary, in the order of the triangles.
-pub fn boundary(mesh: &Mesh<2, 3>) -> Vec<[Vector2<f64>; 2]> {
+fn boundary(mesh: &Mesh<2, 3>) -> Vec<[Vector2<f64>; 2]> {
     let sides = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
     let all: HashSet<[usize; 2]> = mesh.elements.iter().flat_map(sides).collect();
     let outer = mesh.elements.iter().flat_map(sides).filter(|[a, b]| !all.contains(&[*b, *a]));

@@ -9,9 +9,7 @@ mod modulus;
 mod object;
 mod plasticity;
 mod speed;
-mod square;
 mod stability;
-mod start;
 mod sweep;
 
 use super::Collection;

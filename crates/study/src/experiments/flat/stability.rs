@@ -1,5 +1,7 @@
 //! The smallest number of substeps at which an explicit method is stable.
 
+mod square;
+
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
@@ -7,11 +9,10 @@ use fem_mesh::Mesh;
 use fem_model::simulation::{Diagnostics, Simulation};
 
 use super::object::{LAME, OBJECTS, disturb, meshed, picture, simulator};
-use super::square;
 use crate::study::{Mark, Part, Table};
 
 /// Frames in a second, frames of a stable run, and frames after which growth must show.
-pub const FRAMES: f64 = 60.0;
+const FRAMES: f64 = 60.0;
 const RUN: usize = 20;
 const LONG_RUN: usize = 60;
 /// Length of the edges, m, for a height of 1 m.
@@ -82,12 +83,12 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// The table `[time]` of a method with so many substeps in a frame.
-pub fn method(name: &str, substeps: usize) -> String {
+fn method(name: &str, substeps: usize) -> String {
     format!("integrator = \"{name}\"\ndt = {:e}", 1.0 / FRAMES / substeps as f64)
 }
 
 /// The longest stable time step, s.
-pub fn limit(mesh: &Mesh<2, 3>, lame: f64, damping: &str) -> Result<f64, String> {
+fn limit(mesh: &Mesh<2, 3>, lame: f64, damping: &str) -> Result<f64, String> {
     let simulation = simulator(mesh, lame, &method("semi_implicit_euler", 1), damping)?;
     simulation.critical_time_step().ok_or_else(|| "the body has no stiffness".to_owned())
 }
@@ -103,7 +104,7 @@ fn grows(omega: f64, ratio: f64, substeps: usize) -> bool {
 }
 
 /// Returns true if a disturbed body stays near its undeformed shape for a number of frames with so many substeps.
-pub fn lives(
+fn lives(
     mesh: &Mesh<2, 3>,
     lame: f64,
     damping: &str,

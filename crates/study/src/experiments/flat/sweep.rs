@@ -43,6 +43,9 @@ struct Thrown {
     triangles: Vec<Triangle>,
 }
 
+/// A measure of the end.
+type Measure = fn(&Thrown) -> f64;
+
 /// Throws the bunny with each value.
 pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
     let mut found = Vec::new();
@@ -52,11 +55,11 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
         }
     }
     let of = |parameter: usize| found.iter().filter(move |run| run.parameter == parameter);
-    let falls = |parameter: usize, measure: fn(&Thrown) -> f64, sign: f64| {
+    let falls = |parameter: usize, measure: Measure, sign: f64| {
         let values: Vec<f64> = of(parameter).map(|run| sign * measure(run)).collect();
         values.windows(2).all(|pair| pair[1] < pair[0])
     };
-    let statements: [(&str, usize, fn(&Thrown) -> f64, f64); 4] = [
+    let statements: [(&str, usize, Measure, f64); 4] = [
         ("the higher the yield strain, the less the body flows", 0, |run| run.plastic, 1.0),
         ("the faster the creep, the more the body flows", 1, |run| run.plastic, -1.0),
         ("the larger the friction, the shorter the way", 2, |run| run.way, 1.0),

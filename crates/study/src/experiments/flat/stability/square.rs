@@ -4,9 +4,9 @@ use fem_chart::grid;
 use fem_mesh::{Mesh, Pattern, rectangle_mesh};
 use fem_model::simulation::Simulation;
 
-use super::object::{LAME, disturb, simulator};
-use super::stability::{FRAMES, limit, lives, method};
+use super::{FRAMES, limit, lives, method};
 use crate::experiments::drawing::{Triangle, drawn, elements};
+use crate::experiments::flat::object::{LAME, disturb, simulator};
 use crate::study::{Figure, Mark, Part, Table};
 
 /// The thesis' damping, Pa s.

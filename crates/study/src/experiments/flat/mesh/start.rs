@@ -10,9 +10,9 @@ use nalgebra::Vector2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use super::mesh::{ITERATIONS, THEIRS, boundary};
-use super::object::{meshed, picture};
+use super::{ITERATIONS, THEIRS, boundary};
 use crate::experiments::drawing::{CELL, Triangle, drawn};
+use crate::experiments::flat::object::{meshed, picture};
 use crate::study::{Figure, Mark};
 
 /// Length of the edges, m, for a height of 1 m.
