@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use fem_model::{Preconditioner, SolverKind};
+use fem_model::{Preconditioner, SolverKind, Volumetric};
 use fem_scene::tables::SolverTable;
 use fem_scene::{Override, Scene};
 
@@ -47,6 +47,8 @@ pub enum Command {
     Frame(FrameArguments),
     /// Runs a scene once and prints its times as JSON
     Run(RunArguments),
+    /// Solves a published solid and prints value, unknowns and time as JSON; benches/peers/statics/compare.py runs it beside other programs
+    Statics(StaticsArguments),
 }
 
 #[derive(Debug, Args)]
@@ -148,6 +150,61 @@ pub struct RunArguments {
     /// Folder of meshes and scenes
     #[arg(long, value_name = "DIR", default_value = "data")]
     pub data: PathBuf,
+}
+
+/// An equilibrium on a structured mesh of tetrahedra.
+#[derive(Debug, Args)]
+pub struct StaticsArguments {
+    pub case: StaticsCase,
+    /// Cells along the three edges of the box that is mapped to the body
+    #[arg(long, value_name = "N,N,N", value_delimiter = ',', value_parser = positive, required = true)]
+    pub cells: Vec<usize>,
+    /// Order of the elements, 1 or 2
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    pub order: usize,
+    /// Evaluation of the energy of the volume
+    #[arg(long, value_name = "NAME")]
+    pub volumetric: Option<VolumetricName>,
+    /// Linear solver instead of the one that the engine chooses
+    #[arg(long, value_name = "NAME")]
+    pub solver: Option<SolverName>,
+    /// Equal parts of the load
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = positive)]
+    pub load_steps: usize,
+    /// Number of solutions, of which the fastest counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = positive)]
+    pub rounds: usize,
+}
+
+/// A solid of `statics`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum StaticsCase {
+    /// NAFEMS LE10: stress of a thick elliptic plate under pressure
+    Le10,
+    /// The twisted beam of MacNeal and Harder: displacement of its end along the end's long side
+    Twisted,
+    /// A quarter of a nearly incompressible block under a pressure on the middle of its top: displacement of the top's centre
+    Block,
+}
+
+/// A value of `material.volumetric`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum VolumetricName {
+    Standard,
+    Averaged,
+    Mixed,
+}
+
+impl From<VolumetricName> for Volumetric {
+    fn from(name: VolumetricName) -> Self {
+        match name {
+            VolumetricName::Standard => Self::Standard,
+            VolumetricName::Averaged => Self::Averaged,
+            VolumetricName::Mixed => Self::Mixed,
+        }
+    }
 }
 
 /// A linear solver with its preconditioner.

@@ -16,6 +16,7 @@ mod race;
 mod run;
 mod scaling;
 mod solvers;
+mod statics;
 mod table;
 
 use std::process::ExitCode;
@@ -50,5 +51,6 @@ fn carry_out(command: Command) -> Result<(), End> {
         Command::Gpu(arguments) => gpu::run(&arguments),
         Command::Frame(arguments) => frame::run(&arguments),
         Command::Run(arguments) => run::print(&arguments),
+        Command::Statics(arguments) => statics::run(&arguments),
     }
 }

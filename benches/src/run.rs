@@ -82,7 +82,7 @@ fn here(arguments: &RunArguments) -> Result<Measurement, End> {
 }
 
 /// Processor time of this process so far, s.
-fn processor_seconds() -> Result<f64, End> {
+pub fn processor_seconds() -> Result<f64, End> {
     let time = clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map_err(End::wrong)?;
     Ok(time.tv_sec() as f64 + 1e-9 * time.tv_nsec() as f64)
 }
