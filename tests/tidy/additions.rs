@@ -273,7 +273,7 @@ fn a_copy_with_all_additions_compiles_and_runs_a_scene_with_each() {
         cargo.args(program).arg(&file).arg("--headless").current_dir(copy.path()).env("CARGO_TARGET_DIR", &built);
         let output = cargo.output().expect("cargo starts");
         let told = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-        assert!(output.status.success() && told.contains("5 steps"), "{}: {told}", addition.name);
+        assert!(output.status.success() && told.contains("5 steps"), "{}: {}: {told}", addition.name, output.status);
     }
 }
 
