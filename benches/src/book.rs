@@ -1,4 +1,4 @@
-//! What a command prints, put into a page of the book: under the line that names the command, up to the next end.
+//! Puts the output of a command into a page of the book: under the line that names the command, up to the line that ends it.
 
 use std::fs;
 use std::path::Path;

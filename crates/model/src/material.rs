@@ -512,8 +512,8 @@ impl Material {
                 "poisson" if value == 0.5 && self.volumetric == Volumetric::Mixed => {}
                 "poisson" => {
                     let range = format!("is {value}; Poisson's ratio lies above -1 and below 0.5");
-                    let held = format!(", or is that with {table}.volumetric = \"mixed\"");
-                    return problem(&field, range + if value == 0.5 { &held } else { "" });
+                    let mixed = format!(", or is that with {table}.volumetric = \"mixed\"");
+                    return problem(&field, range + if value == 0.5 { &mixed } else { "" });
                 }
                 "C10" | "C01" | "C2" | "C3" | "mu1" | "mu2" | "mu3" => check_finite(&field, &[value])?,
                 "alpha1" | "alpha2" | "alpha3" if value == 0.0 => {

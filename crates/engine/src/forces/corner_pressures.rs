@@ -35,7 +35,7 @@ pub struct CornerPressures {
     nodes: Vec<u32>,
     /// Undeformed volumes of the corners, m³.
     volumes: Vec<f64>,
-    /// What the square of a volume that is left counts: μ over the volume of a corner, Pa/m³.
+    /// Factor ρ of the square of the volume that is left at a corner: μ over its volume, Pa/m³.
     penalty: Vec<f64>,
     /// Pa/m
     scale: f64,

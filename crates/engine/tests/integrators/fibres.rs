@@ -1,15 +1,13 @@
 //! Families of fibres: bars, derivatives, rotations, symmetry, energies, refusals.
 
-use std::path::Path;
-
 use fem_engine::forces::{HessianKind, Moment};
-use fem_engine::simulator::double::{self, System};
-use fem_engine::solvers::SolverChoice;
+use fem_engine::simulator::double::System;
 use fem_model::simulation::Simulation;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::flat::flat;
-use crate::{SECOND_ORDER, block, build, of_law, run, scene, side, soft, symmetry, try_build};
+use crate::nodal_fields::{dot, field, system};
+use crate::{SECOND_ORDER, block, build, of_law, run, side, soft, symmetry, try_build};
 
 /// k1 (Pa), k2 and κ.
 type Law = [f64; 3];
@@ -115,20 +113,6 @@ fn two_symmetric_families_have_no_shear_stress_and_one_has() {
     assert!(two < 1e-10 && one > 1e-2, "{two:e} {one:e}");
 }
 
-fn system(text: &str) -> System {
-    let body = fem_scene::body(&scene(text), Path::new("no data")).unwrap_or_else(|error| panic!("{error}"));
-    double::system(body, SolverChoice::Cholesky)
-}
-
-fn field(nodes: usize, size: f64, phase: f64, is_flat: bool) -> Vec<[f64; 3]> {
-    let entry = |node: usize, i: usize| size * ((node * 3 + i) as f64 * 1.7 + phase).sin();
-    (0..nodes).map(|node| [0, 1, 2].map(|i| if is_flat && i == 2 { 0.0 } else { entry(node, i) })).collect()
-}
-
-fn dot(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
-    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
-}
-
 /// Three bodies with two families: of linear and of quadratic tetrahedra, and of triangles.
 fn bodies() -> [String; 3] {
     let families =
@@ -148,9 +132,9 @@ fn gradient(system: &System, u: &[[f64; 3]]) -> Vec<[f64; 3]> {
 fn forces_and_stiffness_are_the_derivatives_of_the_energy_and_the_stiffness_has_no_negative_energy() {
     for text in bodies() {
         let system = system(&text);
-        let (nodes, is_flat, moment, h) = (system.nodes(), system.shape.mesh.dimension() == 2, Moment::at(0.0), 1e-6);
+        let (moment, h) = (Moment::at(0.0), 1e-6);
         for phase in 0..6 {
-            let of = |size: f64, phase: f64| field(nodes, size, phase, is_flat);
+            let of = |size: f64, phase: f64| field(&system, size, phase);
             let (u, d) = (of(0.05, f64::from(phase)), of(1.0, 2.0 + 0.7 * f64::from(phase)));
             let ahead = |h: f64| -> Vec<[f64; 3]> {
                 u.iter().zip(&d).map(|(u, d)| std::array::from_fn(|i| u[i] + h * d[i])).collect()
@@ -180,7 +164,7 @@ fn a_rotation_keeps_the_energy_and_turns_the_forces() {
         let is_flat = system.shape.mesh.dimension() == 2;
         let axis = if is_flat { Vector3::z_axis() } else { Vector3::y_axis() };
         let R = Rotation3::from_axis_angle(&axis, 1.2);
-        let u = field(system.nodes(), 0.05, 0.4, is_flat);
+        let u = field(&system, 0.05, 0.4);
         let turned: Vec<[f64; 3]> =
             u.iter().zip(&system.rest).map(|(u, x)| (R * (Vector3::from(*u) + x) - x).into()).collect();
         let [before, after] = [&u, &turned].map(|u| system.energy_of_forces(u, Moment::at(0.0)).value);

@@ -24,6 +24,7 @@ mod lattices;
 mod laws;
 mod ledger;
 mod mass_spring;
+mod nodal_fields;
 mod nodal_forces;
 mod ogden;
 mod orders;

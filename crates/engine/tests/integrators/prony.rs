@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use fem_engine::forces::{HessianKind, Moment};
-use fem_engine::simulator::double::{self, System};
-use fem_engine::solvers::SolverChoice;
+use fem_engine::simulator::double::System;
 use fem_model::Law;
 use fem_model::simulation::Simulation;
 
 use crate::flat::flat;
+use crate::nodal_fields::{dot, field, system};
 use crate::{SECOND_ORDER, block, build, of_law, run, scene, side, soft, symmetry, try_build};
 
 /// Ratios and times of two terms.
@@ -125,33 +125,19 @@ fn a_cycle_of_strain_loses_the_energy_of_the_loss_modulus_with_an_error_of_secon
     assert!((order - 2.0).abs() < 0.2 && fine < 5e-3, "{order} {coarse:e} {fine:e}");
 }
 
-fn system(text: &str) -> System {
-    let body = fem_scene::body(&scene(text), Path::new("no data")).unwrap_or_else(|error| panic!("{error}"));
-    double::system(body, SolverChoice::Cholesky)
-}
-
-fn field(nodes: usize, size: f64, phase: f64, is_flat: bool) -> Vec<[f64; 3]> {
-    let entry = |node: usize, i: usize| size * ((node * 3 + i) as f64 * 1.7 + phase).sin();
-    (0..nodes).map(|node| [0, 1, 2].map(|i| if is_flat && i == 2 { 0.0 } else { entry(node, i) })).collect()
-}
-
-fn dot(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
-    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
-}
-
 #[test]
 fn forces_and_stiffness_of_a_step_are_the_derivatives_of_its_potential() {
     for model in Law::FACTS.iter().map(|facts| facts.name) {
         let text = of_law(model, &soft("static", 1.0, &viscosity(&TERMS)));
         for text in [text.clone(), text.replace(" }\n[material]", " }\norder = 2\n[material]"), flat(&text)] {
             let mut system = system(&text);
-            let (nodes, is_flat) = (system.nodes(), system.shape.mesh.dimension() == 2);
-            let of = |size: f64, phase: f64| field(nodes, size, phase, is_flat);
+            let nodes = system.nodes();
             // Two steps make stresses that no elastic state has.
-            for (place, time) in [(of(0.0, 0.0), 0.0), (of(0.04, 1.0), 0.1), (of(0.04, 2.0), 0.3)] {
+            for (size, phase, time) in [(0.0, 0.0, 0.0), (0.04, 1.0, 0.1), (0.04, 2.0, 0.3)] {
+                let place = field(&system, size, phase);
                 system.forces.begin_step(&place, Moment::at(time), 0.1);
             }
-            let (u, d, moment, h) = (of(0.03, 0.3), of(1.0, 2.0), Moment::at(0.4), 1e-6);
+            let (u, d, moment, h) = (field(&system, 0.03, 0.3), field(&system, 1.0, 2.0), Moment::at(0.4), 1e-6);
             let ahead = |h: f64| -> Vec<[f64; 3]> {
                 u.iter().zip(&d).map(|(u, d)| std::array::from_fn(|i| u[i] + h * d[i])).collect()
             };
@@ -191,7 +177,7 @@ fn a_projected_stiffness_has_no_negative_energy_where_a_stretch_is_let_go_in_a_l
     system.forces.begin_step(&stretched, Moment::at(0.0), 50.0);
     let (u, moment) = (vec![[0.0; 3]; system.nodes()], Moment::at(50.0));
     let mut is_indefinite = false;
-    for d in (0..20).map(|phase| field(system.nodes(), 1.0, f64::from(phase), false)) {
+    for d in (0..20).map(|phase| field(&system, 1.0, f64::from(phase))) {
         let [exact, projected] =
             [HessianKind::Exact, HessianKind::Projected].map(|kind| energy_along(&system, (&u, moment), &d, kind));
         assert!(projected >= 0.0, "{projected}");
