@@ -70,6 +70,14 @@ impl Window {
         self.editor.apply(&[change], &mut self.simulation)
     }
 
+    /// Adds or removes a table by its button.
+    fn click(&mut self, name: &str) -> Motion {
+        self.editor.find_conditions(&*self.simulation);
+        let setup = self.editor.setup().unwrap();
+        let offer = setup.offers.iter().find(|offer| offer.name == name).unwrap();
+        self.change(Change::Edit(offer.edit.clone())).unwrap()
+    }
+
     /// The boundary faces of a solid body, or the edges of a flat one, whose nodes all have this largest x.
     fn end(&self, x: f64) -> Vec<Vec<usize>> {
         let shape = self.simulation.shape();
@@ -162,6 +170,32 @@ fn a_scene_whose_integrator_was_switched_while_it_ran_is_saved_with_it() {
         }
         window.assert_saved_file_has_the_same_end();
     }
+}
+
+#[test]
+fn tables_that_the_panel_adds_take_effect_at_once_and_are_saved_too() {
+    let law =
+        BEAM.replace("\"neo_hookean\"", "\"corotated\"").replace("C = 2e5\nD = 1e6", "young = 1e6\npoisson = 0.3");
+    let mut window = Window::open(&law.replace("[gravity]\nacceleration = [0, 0, -9.81]\n", ""));
+    assert!(window.simulation.weight().is_none());
+    let motions = [
+        ("gravity", Motion::GoesOn),
+        ("floor", Motion::StartsAgain),
+        ("plastic flow", Motion::StartsAgain),
+        ("damping", Motion::GoesOn),
+    ];
+    for (name, motion) in motions {
+        window.step(5);
+        assert_eq!(window.click(name), motion, "{name}");
+    }
+    assert!(window.simulation.weight().unwrap() > 0.0 && window.simulation.plastic_flow().is_some());
+    assert_eq!(window.simulation.planes()[0].point, Vector3::new(0.0, 0.0, -0.1));
+    assert_eq!(window.editor.scene().damping.as_ref().unwrap().alpha, 0.5);
+    window.step(5);
+    assert_eq!(window.click("planes"), Motion::StartsAgain);
+    assert!(window.simulation.planes().is_empty());
+    assert_eq!(window.click("floor"), Motion::StartsAgain);
+    window.assert_saved_file_has_the_same_end();
 }
 
 #[test]

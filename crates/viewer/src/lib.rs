@@ -35,6 +35,7 @@ mod worker;
 pub use editing::change::{Change, Edit, Effect};
 pub use editing::editor::{Builder, Editing, Motion, SceneEditor, SceneSetup};
 pub use editing::edits as scene_edits;
+pub use editing::tables::TableOffer;
 pub use picture::display::display_available;
 pub use picture::files::{FRAMES_PER_SECOND, NotWritten, Picture, Recorder};
 pub use picture::offscreen::{NoAdapter, OffscreenRenderer};

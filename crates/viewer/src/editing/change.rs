@@ -29,7 +29,7 @@ pub struct Edit {
 /// The effect of an edit on a simulation that runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// Other Dirichlet conditions: the motion starts again, because nodes would jump.
+    /// Other Dirichlet conditions, obstacles or plastic flow: the motion starts again, because nodes would jump.
     Supports,
     /// Other loads: the motion goes on.
     Loads,

@@ -10,6 +10,7 @@ use fem_scene::{Conditions, Override, Scene};
 use nalgebra::Vector3;
 
 use super::change::{Change, Effect};
+use super::tables::{TableOffer, offers};
 use super::{edits, parameters};
 use crate::panics::panic_message;
 
@@ -41,13 +42,15 @@ pub struct SceneEditor {
     setup: Option<Arc<SceneSetup>>,
 }
 
-/// A scene, and the parts of the body that its conditions and loads name.
+/// A scene, the parts of the body that its conditions and loads name, and the tables that it can be given or lose.
 #[derive(Clone, Debug)]
 pub struct SceneSetup {
     /// The scene with the changes of its user.
     pub scene: Scene,
     /// The nodes and faces that it names.
     pub conditions: Conditions,
+    /// The tables that its checks let the panel add and remove.
+    pub offers: Vec<TableOffer>,
 }
 
 /// The fate of the state of a simulation that was built anew.
@@ -66,10 +69,13 @@ impl SceneEditor {
         SceneEditor { initial: scene.clone(), scene, builder, data, up, setup: None }
     }
 
-    /// Finds the nodes and faces that the scene names on the body of its simulation.
+    /// Finds the nodes and faces that the scene names on the body of its simulation, and the tables that can be added and removed.
     pub fn find_conditions(&mut self, simulation: &dyn Simulation) {
-        let conditions = Conditions::of(&self.scene, &simulation.shape());
-        self.setup = conditions.ok().map(|conditions| Arc::new(SceneSetup { scene: self.scene.clone(), conditions }));
+        let Self { scene, initial, up, .. } = &*self;
+        let shape = simulation.shape();
+        let offers = offers(scene, initial, &shape, up);
+        let conditions = Conditions::of(scene, &shape).ok();
+        self.setup = conditions.map(|conditions| Arc::new(SceneSetup { scene: scene.clone(), conditions, offers }));
     }
 
     /// The scene and the parts of the body that it names.

@@ -4,3 +4,4 @@ pub mod change;
 pub mod editor;
 pub mod edits;
 pub mod parameters;
+pub mod tables;

@@ -145,9 +145,14 @@ fn number(scene: &Scene, key: &str, value: f64, up: &Vector3<f64>) -> Result<Vec
 }
 
 /// Gravity of this size in its direction; downwards if it has none.
-fn resized_gravity(scene: &Scene, size: f64, up: &Vector3<f64>) -> [f64; 3] {
+pub fn resized_gravity(scene: &Scene, size: f64, up: &Vector3<f64>) -> [f64; 3] {
     let now = scene.gravity.as_ref().map_or(Vector3::zeros(), |gravity| gravity.acceleration.into());
-    (now.try_normalize(0.0).unwrap_or(-up) * size).into()
+    components(now.try_normalize(0.0).unwrap_or(-up) * size)
+}
+
+/// The components of a vector for a scene, without a sign before zero.
+pub fn components(x: Vector3<f64>) -> [f64; 3] {
+    x.map(|x| x + 0.0).into()
 }
 
 /// The parameters of the law with another λ or μ: E = μ (3λ + 2μ)/(λ + μ) and ν = λ/(2 (λ + μ)), or C = μ/2 and D = λ/2 + μ/3.

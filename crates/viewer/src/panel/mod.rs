@@ -18,6 +18,8 @@ use kiss3d::egui::{
     Ui, vec2,
 };
 
+use crate::editing::change::Change;
+use crate::editing::tables::TableOffer;
 use crate::picture::scene_view::DisplayedSurface;
 use crate::picture::{numbers, theme};
 use crate::setup::{Mode, Setup};
@@ -115,6 +117,9 @@ impl Panel {
         }
         ui.add_space(6.0);
         figures(ui, state, requests);
+        if let Some(scene) = &snapshot.setup {
+            tables(ui, &scene.offers, requests);
+        }
         ui.add_space(6.0);
         self.sections.show(ui, state, setup, requests);
     }
@@ -162,6 +167,24 @@ fn tools(ui: &mut Ui, mode: Mode, requests: &mut Vec<UserRequest>) {
             }
         }
     });
+}
+
+/// The tables that can be added to the scene and removed from it.
+fn tables(ui: &mut Ui, offers: &[TableOffer], requests: &mut Vec<UserRequest>) {
+    for (title, is_there) in [("Add:", false), ("Remove:", true)] {
+        let mut offers = offers.iter().filter(|offer| offer.is_there == is_there).peekable();
+        if offers.peek().is_none() {
+            continue;
+        }
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new(title).color(theme::SECONDARY_TEXT));
+            for offer in offers {
+                if ui.small_button(offer.name).clicked() {
+                    requests.push(UserRequest::Change(Change::Edit(offer.edit.clone())));
+                }
+            }
+        });
+    }
 }
 
 fn help_text(mode: Mode, turns: bool) -> &'static str {

@@ -37,6 +37,11 @@ impl Paint {
         self.scale.as_ref()
     }
 
+    /// Returns true if the body shows its picture.
+    pub fn has_picture(&self) -> bool {
+        self.scale.is_none() && self.painting.borrow().is_some()
+    }
+
     /// Shows the picture where no field is shown, or plain colours.
     pub fn show_picture(&mut self, shows_picture: bool) {
         self.shows_picture = shows_picture;

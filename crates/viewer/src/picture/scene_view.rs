@@ -188,9 +188,10 @@ impl SceneView {
         hit.map(|(_, distance)| distance)
     }
 
-    /// Draws the lines of a frame into the next picture: edges of the simulation mesh if it is displayed, obstacles, and arrows.
+    /// Draws the lines of a frame into the next picture: edges of the simulation mesh if it is displayed without a picture on it,
+    /// obstacles, and arrows.
     pub fn draw_lines(&self, window: &mut Window, frame: &Frame, camera: &Camera) {
-        if !self.shows_skin() {
+        if !self.shows_skin() && !self.paint.has_picture() {
             let nearer = |i: usize| camera.nearer(frame.positions[i], 2e-3); // so that the faces do not hide the edges
             let width = theme::EDGE_WIDTH * window.scale_factor() as f32;
             for &[a, b] in &self.edges {

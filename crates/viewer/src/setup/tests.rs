@@ -45,7 +45,7 @@ impl Desk {
         let scene = fem_scene::parse(BEAM, "beam.toml".as_ref()).unwrap();
         let mut setup = Setup::default();
         setup.choose(mode);
-        let scene = SceneSetup { conditions: Conditions::of(&scene, &shape).unwrap(), scene };
+        let scene = SceneSetup { conditions: Conditions::of(&scene, &shape).unwrap(), scene, offers: Vec::new() };
         Desk { shape, positions, camera, scene, setup }
     }
 
@@ -78,7 +78,8 @@ impl Desk {
     fn apply(&mut self, change: Option<Change>) -> Scene {
         let Some(Change::Edit(edit)) = change else { panic!("no edit: {:?}", self.setup.message) };
         let scene = self.scene.scene.changed(&edit.overrides).unwrap();
-        self.scene = SceneSetup { conditions: Conditions::of(&scene, &self.shape).unwrap(), scene: scene.clone() };
+        let conditions = Conditions::of(&scene, &self.shape).unwrap();
+        self.scene = SceneSetup { conditions, scene: scene.clone(), offers: Vec::new() };
         self.setup.settle(&self.shape, &self.scene);
         scene
     }

@@ -151,8 +151,9 @@ impl Session {
 
     fn read_snapshot(&mut self) -> bool {
         let Some(snapshot) = self.worker.latest() else { return false };
+        let planes_before = self.snapshot.frame.planes.len();
         self.snapshot = snapshot;
-        self.show_shape();
+        self.show_shape(planes_before);
         if let Some(scene) = self.snapshot.setup.as_ref().filter(|_| self.changes.is_done(self.snapshot.changes)) {
             self.setup.settle(&self.shape, scene);
         }
@@ -161,21 +162,24 @@ impl Session {
         true
     }
 
-    /// Shows another body than before, if the user has changed its mesh.
-    fn show_shape(&mut self) {
+    /// Shows another body or other obstacles than before, if the user has changed the mesh or the planes.
+    fn show_shape(&mut self, planes_before: usize) {
         let Some(shape) = &self.snapshot.shape else { return };
         if Arc::ptr_eq(shape, &self.shape) {
             return;
         }
         let is_same = **shape == *self.shape; // built anew on the same mesh
         self.shape = Arc::clone(shape);
-        if is_same {
+        let (planes, shown) = (&self.snapshot.frame.planes, self.view.shown());
+        if is_same && planes_before == planes.len() {
             return;
         }
-        let (planes, shown) = (&self.snapshot.frame.planes, self.view.shown());
         self.view = SceneView::new(&self.shape, planes, self.up);
         self.view.show(shown);
         self.view.show_picture(self.shows_picture);
+        if is_same {
+            return;
+        }
         self.interaction.release(&self.worker);
         self.setup.forget_body();
         let framed = obstacles::arena(self.view.bounds(), planes);
