@@ -1,11 +1,13 @@
 //! Pictures from PNG and JPEG files.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
+use image::codecs::jpeg::JpegDecoder;
+use image::codecs::png::PngDecoder;
 use image::metadata::Orientation;
-use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, Limits};
 use thiserror::Error;
 
 use super::Picture;
@@ -86,20 +88,22 @@ fn with_coverage(picture: &DynamicImage, coverage: Vec<u8>) -> Picture {
     Picture { width: picture.width() as usize, height: picture.height() as usize, coverage }
 }
 
-/// Decodes a file of this length. Memory for pixels is taken only if the file can have so many.
-fn decode(reader: BufReader<File>, length: u64) -> Result<DynamicImage, String> {
-    let mut reader = ImageReader::new(reader)
-        .with_guessed_format()
-        .map_err(|error| format!("cannot be read ({error}); check that it is a file and that you may read it"))?;
-    let most_of_a_byte = match reader.format() {
-        Some(ImageFormat::Png) => PNG_PIXELS,
-        Some(ImageFormat::Jpeg) => JPEG_PIXELS,
-        _ => return Err("is neither a PNG nor a JPEG file; convert it to one of them".to_owned()),
-    };
+/// Decodes a file of this length. Memory for pixels is taken only if the file can have so many. The decoders are named, so that those of
+/// `image` for other formats are not compiled.
+fn decode(mut reader: BufReader<File>, length: u64) -> Result<DynamicImage, String> {
+    let unreadable =
+        |error: std::io::Error| format!("cannot be read ({error}); check that it is a file and that you may read it");
+    let format = image::guess_format(reader.fill_buf().map_err(unreadable)?);
     let mut limits = Limits::default();
     limits.max_alloc = Some(length.saturating_mul(4).saturating_add(BESIDE));
-    reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(damaged)?;
+    let (mut decoder, most_of_a_byte): (Box<dyn ImageDecoder>, u64) = match format {
+        Ok(ImageFormat::Png) => {
+            (Box::new(PngDecoder::with_limits(reader, limits.clone()).map_err(damaged)?), PNG_PIXELS)
+        }
+        Ok(ImageFormat::Jpeg) => (Box::new(JpegDecoder::new(reader).map_err(damaged)?), JPEG_PIXELS),
+        _ => return Err("is neither a PNG nor a JPEG file; convert it to one of them".to_owned()),
+    };
+    decoder.set_limits(limits).map_err(damaged)?;
     let (width, height) = decoder.dimensions();
     let pixels = u64::from(width) * u64::from(height);
     if pixels > MOST_PIXELS {
