@@ -5,6 +5,7 @@ mod capabilities;
 mod checkpoint;
 mod compiled;
 mod contact;
+mod corners;
 mod creep;
 pub(crate) mod device_assembly;
 #[cfg(feature = "gpu")]
@@ -45,6 +46,7 @@ use fem_elements::number::check_instructions;
 
 use adaptive::Control;
 use contact::Contacts;
+use corners::Corners;
 use ledger::Ledger;
 use plan::Plan;
 use work::{LastForces, Room, StepWork};
@@ -68,6 +70,7 @@ pub struct Simulator<T: Real> {
     last_forces: LastForces<T>,
     room: Room<T>,
     contact: Option<Contacts<T>>,
+    corners: Corners,
     /// N; `None` without gravity.
     weight: Option<f64>,
     integrator: Box<dyn Integrator<T>>,
@@ -180,6 +183,7 @@ impl<T: Real> Simulator<T> {
             ),
             ledger: Ledger::new(method.accept_gain),
             work: <_>::default(),
+            corners: Corners::new(&system),
             last_forces: LastForces::default(),
             room: Room::default(),
             contact,

@@ -14,6 +14,9 @@ use fem_elements::Real;
 /// Smallest part of a substep with inverted elements that is tried.
 const SMALLEST: f64 = 1.0 / 64.0;
 
+/// Steps of an explicit method from one check of the corners to the next: a check takes half as long as such a step.
+const CORNERS: usize = 8;
+
 impl<T: Real> Simulator<T> {
     /// Advances by one step in equal substeps.
     pub(super) fn equal_substeps(&mut self) -> Result<Convergence, Failure> {
@@ -34,7 +37,7 @@ impl<T: Real> Simulator<T> {
     /// Returns true if a step failed because of elements that are inverted at its end, and the method evaluates its forces before the end.
     fn is_inverted_beyond_the_stage(&self, cause: Cause) -> bool {
         let is_within = self.integrator.last_stage().is_some_and(|stage| stage.part < 1.0);
-        is_within && matches!(cause, Cause::Inverted { .. })
+        is_within && cause.is_inversion()
     }
 
     /// Computes a substep that has inverted elements in smaller parts.
@@ -51,7 +54,7 @@ impl<T: Real> Simulator<T> {
                     convergence = if accepted == Convergence::NotConverged { accepted } else { convergence };
                     self.state.time = if self.substep_dt == left { end } else { self.state.time };
                 }
-                Err(Cause::Inverted { .. }) if part > SMALLEST * whole => {
+                Err(cause) if cause.is_inversion() && part > SMALLEST * whole => {
                     self.counters.rejected_steps += 1;
                     self.state.copy_from(&self.last_good);
                     part *= 0.5;
@@ -165,6 +168,7 @@ impl<T: Real> Simulator<T> {
         if !self.system.elements.allow_inversion() {
             let (J, element) = self.system.elements.min_det_F_of_barriers(&self.state.u);
             Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)?;
+            self.check_corners()?;
         }
         self.check_contact()?;
         if !is_judged(self.kind) {
@@ -177,6 +181,15 @@ impl<T: Real> Simulator<T> {
         let end = *forces.bounds.insert(Bounds::of(system, state));
         let leap = self.with_ledger(|simulator| &simulator.work.1, |ledger, step| ledger.leap(step, [start, end]));
         leap.map_or(Ok(()), Err)
+    }
+
+    /// Checks that no quadratic element is inverted at a corner, unless its law allows that.
+    fn check_corners(&self) -> Result<(), Cause> {
+        if self.kind.is_explicit() && !self.counters.steps.is_multiple_of(CORNERS) {
+            return Ok(());
+        }
+        let (J, element) = self.corners.least(&self.system, &self.state.u);
+        if J <= 0.0 { Err(Cause::InvertedAtCorner { element, J }) } else { Ok(()) }
     }
 
     /// Lets the material flow in a step that has been accepted.

@@ -32,6 +32,13 @@ pub enum Cause {
         /// Its J = det F ≤ 0.
         J: f64,
     },
+    /// A quadratic element is inverted at a corner, though at no quadrature point.
+    InvertedAtCorner {
+        /// The element.
+        element: usize,
+        /// J = det F ≤ 0 at that corner.
+        J: f64,
+    },
     /// A node lies behind an obstacle: a constrained one, which cannot give way.
     Penetrated {
         /// Number of the plane in `[[planes]]`.
@@ -72,6 +79,11 @@ pub enum Cause {
 }
 
 impl Cause {
+    /// Returns true if an element is inverted.
+    pub fn is_inversion(&self) -> bool {
+        matches!(self, Self::Inverted { .. } | Self::InvertedAtCorner { .. })
+    }
+
     /// [`Cause::Inverted`] if the smallest J of all elements is not positive. `min_J` is as
     /// [`Simulation::min_J`](super::Simulation::min_J) returns it.
     pub fn inverted((J, element): (f64, usize)) -> Option<Self> {
@@ -107,6 +119,9 @@ impl Failure {
         let remedy = match integrator {
             _ if matches!(cause, Cause::SmallestStep { .. }) => {
                 "give a larger time.adaptive.tolerance, or loads without jumps".to_owned()
+            }
+            _ if matches!(cause, Cause::InvertedAtCorner { .. }) => {
+                "use a finer mesh there, smaller loads, or mesh.order = 1, whose elements cannot be inverted in part".to_owned()
             }
             _ if matches!(cause, Cause::Solver(breakdown) if breakdown.is_of_machine()) => {
                 "use solver.kind = \"pcg\"".to_owned()
@@ -185,6 +200,9 @@ impl fmt::Display for Failure {
         match self.cause {
             Cause::NotFinite { node } => write!(f, "the position or velocity of node {node} is no longer finite")?,
             Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
+            Cause::InvertedAtCorner { element, J } => {
+                write!(f, "the quadratic element {element} is inverted at a corner (J = {J:.3e})")?;
+            }
             Cause::Penetrated { plane, node, depth } => {
                 write!(f, "node {node} is constrained, and lies {depth:.3e} m behind planes[{plane}]")?;
             }

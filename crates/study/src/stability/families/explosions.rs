@@ -38,7 +38,7 @@ fn ended(text: &SceneText, deadline: Deadline) -> Result<Finding, Finding> {
         }
         let Err(failure) = simulation.step() else { continue };
         let finite = simulation.positions().iter().all(|x| x.is_finite());
-        let is_clear = matches!(failure.cause, Cause::EnergyGained { .. } | Cause::Inverted { .. });
+        let is_clear = matches!(failure.cause, Cause::EnergyGained { .. }) || failure.cause.is_inversion();
         let outcome = if finite && is_clear { Outcome::Explodes } else { Outcome::Deviates };
         return Ok(Finding::new(outcome, step as f64, failure.to_string()));
     }
