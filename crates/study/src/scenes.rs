@@ -1,11 +1,58 @@
 //! Bodies and simulations of scenes in memory.
 
+use std::fmt;
 use std::path::Path;
 
 use fem_engine::simulator::{Compiled, Simulator, build};
 use fem_model::simulation::Simulation;
 use fem_model::{Body, BodyMesh};
 use fem_scene::{Scene, SceneError, body, body_of, parse};
+
+/// The elements of a body, and the form of their volume energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Elements {
+    /// Order of the shape functions.
+    pub order: usize,
+    /// Value of `material.volumetric`.
+    pub volumetric: &'static str,
+}
+
+/// The elements of a scene that names none.
+pub const LINEAR: Elements = Elements { order: 1, volumetric: "standard" };
+
+/// Quadratic ones with the energy of their law.
+pub const QUADRATIC: Elements = Elements { order: 2, volumetric: "standard" };
+
+/// Elements that do not lock near ν = ½, or hardly.
+pub const WITHOUT_LOCKING: [Elements; 5] =
+    [LINEAR.with("averaged"), LINEAR.with("mixed"), QUADRATIC, QUADRATIC.with("averaged"), QUADRATIC.with("mixed")];
+
+impl Elements {
+    /// The same elements with another form of their volume energy.
+    pub const fn with(self, volumetric: &'static str) -> Self {
+        Self { volumetric, ..self }
+    }
+
+    /// The lines of `[mesh]` and `[material]` that name them, none for those of a scene that names none.
+    pub fn keys(self) -> [String; 2] {
+        let order = if self.order == 1 { String::new() } else { format!("order = {}\n", self.order) };
+        let volumetric = match self.volumetric {
+            "standard" => String::new(),
+            form => format!("volumetric = \"{form}\"\n"),
+        };
+        [order, volumetric]
+    }
+}
+
+impl fmt::Display for Elements {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let order = if self.order == 1 { "linear" } else { "quadratic" };
+        match self.volumetric {
+            "standard" => write!(f, "{order} elements"),
+            form => write!(f, "{order} elements, {form}"),
+        }
+    }
+}
 
 /// `[mesh]` of a scene whose mesh another one replaces.
 pub const REPLACED: &str = "box = { size = [1, 1, 1], cells_per_unit = 1 }";

@@ -235,7 +235,8 @@ fn orders_csv(report: &Report) -> Result<String, csv::Error> {
 }
 
 fn locking_csv(report: &Report) -> Result<String, csv::Error> {
-    let columns: [Column<locking::TipDeflection>; 3] = [
+    let columns: [Column<locking::TipDeflection>; 4] = [
+        ("elements", &|bent| bent.elements.clone()),
         ("poisson", &|bent| bent.poisson.to_string()),
         ("cells_per_metre", &|bent| bent.cells.to_string()),
         ("tip_over_timoshenko", &|bent| format!("{:e}", bent.ratio)),
@@ -272,7 +273,7 @@ fn as_json(report: &Report) -> Value {
         "scenes": std::iter::once(&report.orders).chain(&report.scenes).map(scene).collect::<Vec<_>>(),
         "orders": report.observed().into_iter().map(order).collect::<Vec<_>>(),
         "locking": report.space.tip_deflections.iter().map(|bent| json!({
-            "poisson": bent.poisson, "cells_per_metre": bent.cells, "tip_over_timoshenko": bent.ratio })).collect::<Vec<_>>(),
+            "elements": bent.elements, "poisson": bent.poisson, "cells_per_metre": bent.cells, "tip_over_timoshenko": bent.ratio })).collect::<Vec<_>>(),
         "runs": table::json(&report.rows()),
     })
 }

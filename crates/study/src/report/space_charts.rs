@@ -2,6 +2,7 @@
 
 use crate::report::text::{number, seconds};
 use crate::runs::row::Row;
+use crate::scenes::LINEAR;
 use crate::studies::space::{self, SpaceOrders, SpaceStudy};
 use fem_chart::{Axis, Chart, Dot, Guide, Picture, Series};
 
@@ -51,14 +52,15 @@ pub fn time_in_plane(space: &SpaceStudy) -> Picture {
     chart.draw()
 }
 
-/// Tip deflection relative to theory over the edge of a cell, for each Poisson's ratio.
+/// Tip deflection of linear elements relative to theory over the edge of a cell, for each Poisson's ratio.
 pub fn locking(space: &SpaceStudy) -> Picture {
     let label = "volumetric locking: tip deflection relative to Timoshenko's";
     let y = Axis { range: Some((0.0, 1.05)), ..Axis::linear("tip deflection / Timoshenko's") };
     let mut chart = Chart::new(label, Axis::log("edge of a cell, beam 1 m high (m)"), y);
     chart.guides.push(Guide::Horizontal(1.0, "Timoshenko".to_owned()));
+    let linear = LINEAR.to_string();
     for (place, poisson) in crate::space::locking::RATIOS.into_iter().enumerate() {
-        let beams = space.tip_deflections.iter().filter(|bent| bent.poisson == poisson);
+        let beams = space.tip_deflections.iter().filter(|bent| bent.elements == linear && bent.poisson == poisson);
         let dot = |bent: &crate::space::locking::TipDeflection| {
             let title = format!("ν = {poisson}, {} cells\n{} of theory", bent.cells, number(Some(bent.ratio)));
             Dot::new(1.0 / bent.cells as f64, bent.ratio, title)

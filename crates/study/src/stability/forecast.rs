@@ -8,6 +8,7 @@ use super::initial_state::Random;
 use super::march::march;
 use super::scene_text::{CLAMPED, SceneText};
 use super::theory::{self, HighestMode, Scheme};
+use crate::scenes::Elements;
 use crate::study::Deadline;
 
 /// Initial amplitude of the highest mode, m; the body's elements have edges of 1 m.
@@ -62,9 +63,9 @@ pub fn clamped(integrator: Integrator, model: &'static str, young: f64, dt: f64)
     SceneText { young, dt, ..SceneText::small(integrator, model).with(CLAMPED) }
 }
 
-/// The highest natural frequency of that body with this material and E = 1 Pa, 1/s. It is proportional to √E.
-pub fn unit_omega(model: &'static str) -> f64 {
-    let simulation = clamped(Integrator::Verlet, model, 1.0, 1.0).build();
+/// The highest natural frequency of that body with this material, these elements and E = 1 Pa, 1/s. It is proportional to √E.
+pub fn unit_omega(model: &'static str, elements: Elements) -> f64 {
+    let simulation = SceneText { elements, ..clamped(Integrator::Verlet, model, 1.0, 1.0) }.build();
     let mode = simulation.ok().and_then(|simulation| highest_mode(&simulation).ok());
     mode.map_or(f64::NAN, |mode| mode.omega)
 }

@@ -1,11 +1,11 @@
 //! Scenes of this study as the text of scene files, so that every row can be reproduced.
 
-use fem_model::{Body, Family, Integrator};
+use fem_model::{Body, BodyMesh, Family, Integrator};
 use nalgebra::Vector3;
 
 use super::case::{Case, Finding, Outcome, SMALLEST_J};
 use super::march::march;
-use crate::scenes::{scene_and_body, simulator};
+use crate::scenes::{Elements, LINEAR, scene_and_body, simulator};
 use crate::study::Deadline;
 
 use fem_engine::simulator::{Compiled, Simulator};
@@ -31,6 +31,8 @@ pub const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_
 pub struct SceneText {
     /// Contents of `[mesh]`.
     pub mesh: String,
+    /// The elements.
+    pub elements: Elements,
     /// The material.
     pub model: &'static str,
     /// Pa
@@ -58,6 +60,7 @@ impl SceneText {
     pub fn small(integrator: Integrator, model: &'static str) -> Self {
         Self {
             mesh: "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 1 }".to_owned(),
+            elements: LINEAR,
             model,
             young: 1e5,
             poisson: 0.3,
@@ -82,11 +85,12 @@ impl SceneText {
 
     /// The text of the file.
     pub fn text(&self) -> String {
-        let Self { mesh, model, young, poisson, density, integrator, dt, rest } = self;
+        let Self { mesh, elements, model, young, poisson, density, integrator, dt, rest } = self;
+        let [order, volumetric] = elements.keys();
         // Springs have the ratio of their directions.
         let poisson = if *model == "mass_spring" { String::new() } else { format!("poisson = {poisson}\n") };
         format!(
-            "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n{poisson}\
+            "pipeline = \"engine\"\n[mesh]\n{mesh}\n{order}[material]\nmodel = \"{model}\"\nyoung = {young:e}\n{poisson}{volumetric}\
              density = {density:e}\n[time]\ndt = {dt:e}\nintegrator = \"{}\"\n{rest}",
             integrator.name()
         )
@@ -100,6 +104,10 @@ impl SceneText {
         parameters: String,
         work: impl FnOnce(Deadline) -> Result<Finding, Finding> + Send + 'static,
     ) -> Case {
+        let parameters = match self.elements {
+            LINEAR => parameters,
+            elements => format!("{parameters}, {elements}"),
+        };
         Case {
             family,
             case: case.into(),
@@ -131,7 +139,8 @@ impl SceneText {
 
     /// The simulation on another mesh in a precision, which the scene must name too.
     pub fn build_on_as<T: Compiled>(&self, mesh: TetrahedralMesh) -> Result<Simulator<T>, Finding> {
-        simulator(&self.text(), Some(mesh.into())).map_err(refused)
+        let mesh = BodyMesh::from(mesh).of_order(self.elements.order);
+        simulator(&self.text(), mesh).map_err(refused)
     }
 
     /// The scene and its body.

@@ -5,6 +5,7 @@ use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
 use crate::runs::names;
 use crate::runs::row::{Configuration, Errors, Row, Times};
 use crate::runs::states::{Snapshot, write_reference, write_state};
+use crate::scenes::{LINEAR, WITHOUT_LOCKING};
 use crate::space::locking::{self, TipDeflection};
 use crate::space::manufactured;
 use crate::space::norms;
@@ -69,7 +70,14 @@ pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
     for &cells in meshes {
         (settings.tell)(cells, 8, &format!("locking, {cells} cells per metre"));
         for poisson in locking::RATIOS {
-            space.tip_deflections.push(locking::bend(poisson, cells)?);
+            space.tip_deflections.push(locking::bend(LINEAR, poisson, cells)?);
+        }
+    }
+    let cells = if settings.is_quick { 1 } else { 2 };
+    for elements in WITHOUT_LOCKING {
+        (settings.tell)(cells, 8, &format!("locking, {elements}"));
+        for poisson in locking::ratios(elements) {
+            space.tip_deflections.push(locking::bend(elements, poisson, cells)?);
         }
     }
     Ok(space)

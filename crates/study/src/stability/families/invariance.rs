@@ -5,6 +5,7 @@ use fem_mesh::TetrahedralMesh;
 use fem_model::Integrator;
 use nalgebra::Vector3;
 
+use crate::scenes::{Elements, LINEAR};
 use crate::stability::case::{Case, Finding};
 use crate::stability::initial_state::{Random, place_moving};
 use crate::stability::march::march;
@@ -49,7 +50,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     }
     for integrator in dynamic() {
         for mass in ["", LUMPED] {
-            cases.push(rigid(integrator, mass, if quick { 100 } else { 1000 }));
+            cases.push(rigid(integrator, LINEAR, mass, if quick { 100 } else { 1000 }));
         }
     }
 }
@@ -141,8 +142,8 @@ fn shuffled(mesh: &TetrahedralMesh, seed: u64) -> (TetrahedralMesh, Vec<usize>) 
 }
 
 /// A free box in rigid motion.
-pub fn rigid(integrator: Integrator, mass: &'static str, steps: usize) -> Case {
-    let text = SceneText { dt: 1e-3, ..SceneText::small(integrator, "neo_hookean") }.with(mass);
+pub fn rigid(integrator: Integrator, elements: Elements, mass: &'static str, steps: usize) -> Case {
+    let text = SceneText { dt: 1e-3, elements, ..SceneText::small(integrator, "neo_hookean") }.with(mass);
     let name = if mass.is_empty() { "consistent" } else { "lumped" };
     let parameters = format!("{name} mass, dt = 1e-3 s, {steps} steps");
     in_rigid_motion(text, FAMILY, parameters, steps)

@@ -10,6 +10,7 @@ use super::invariance::rigid;
 use super::recovery::{MARGIN_IS as RECOVERED, back_at_rest};
 use super::single_precision::compared;
 use super::stiffness_and_step::{DT, YOUNG};
+use crate::scenes::LINEAR;
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::initial_state::{Random, TANGLES, Tangle, place};
@@ -27,7 +28,7 @@ const MARGIN_IS: &str =
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
-    let omega = unit_omega("linear");
+    let omega = unit_omega("linear", LINEAR);
     for integrator in iterated() {
         for count in if quick { &[20][..] } else { &[1, 20] } {
             for young in YOUNG {
@@ -64,7 +65,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
         }
         // A step of few sweeps of vertex block descent does not keep the momentum. Round-off of all sweeps adds up.
         if integrator != Integrator::Vbd {
-            cases.push(rigid(integrator, LUMPED, 100));
+            cases.push(rigid(integrator, LINEAR, LUMPED, 100));
         }
         add_refusals(cases, integrator);
     }

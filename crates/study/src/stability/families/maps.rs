@@ -3,6 +3,7 @@
 use fem_model::Integrator;
 use std::ops::RangeInclusive;
 
+use crate::scenes::LINEAR;
 use crate::stability::case::{Case, Cell, Finding, Map, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::scene_text::dynamic;
@@ -20,7 +21,7 @@ pub const TIME_STEPS: usize = 11;
 
 /// Adds a case for the map of each integrator.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
-    let omega = unit_omega("linear");
+    let omega = unit_omega("linear", LINEAR);
     let count = EXPONENTS_OF_YOUNG.count() * TIME_STEPS;
     for integrator in dynamic() {
         let parameters = format!("{count} pairs, E = 1e2 to 1e12 Pa, dt = 1e-5 to 1 s");

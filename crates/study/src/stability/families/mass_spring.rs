@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use super::invariance::in_rigid_motion;
 use super::stiffness_and_step::{DT, YOUNG};
+use crate::scenes::LINEAR;
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::initial_state::{Random, TANGLES, Tangle, place};
@@ -25,7 +26,7 @@ const STILL: f64 = 1e-2;
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
-    let omega = unit_omega(MODEL);
+    let omega = unit_omega(MODEL, LINEAR);
     for integrator in dynamic() {
         for young in YOUNG {
             for dt in DT {

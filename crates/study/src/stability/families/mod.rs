@@ -2,6 +2,7 @@
 
 mod contact;
 mod degenerate_bodies;
+mod elements;
 mod energy;
 mod explosions;
 mod flat_bodies;
@@ -31,6 +32,7 @@ pub fn cases(quick: bool) -> Vec<Case> {
     stability_limits::add(&mut cases, quick);
     explosions::add(&mut cases);
     incompressibility::add(&mut cases, quick);
+    elements::add(&mut cases, quick);
     invariance::add(&mut cases, quick);
     slivers::add(&mut cases, quick);
     single_precision::add(&mut cases, quick);

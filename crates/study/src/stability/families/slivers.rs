@@ -21,14 +21,16 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
             for integrator in
                 [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler, Integrator::Static, Integrator::Verlet]
             {
-                cases.push(sliver(thin, model, integrator, if quick { 10 } else { 100 }));
+                let text = SceneText::small(integrator, model);
+                cases.push(sliver(thin, text, if quick { 10 } else { 100 }));
             }
         }
     }
 }
 
+/// A mesh with thin elements.
 #[derive(Clone, Copy, Debug)]
-enum Thin {
+pub enum Thin {
     /// A layer of flat elements between two blocks.
     Sheet,
     /// Two crossing layers, with elements that are thin in two directions.
@@ -47,8 +49,10 @@ fn mesh(thin: Thin) -> Result<TetrahedralMesh, Finding> {
     }
 }
 
-fn sliver(thin: Thin, model: &'static str, integrator: Integrator, steps: usize) -> Case {
-    let mut text = SceneText::small(integrator, model).with(CLAMPED).with(&gravity([0.0, 0.0, -2.0]));
+/// A clamped body with such a mesh under its weight.
+pub fn sliver(thin: Thin, text: SceneText, steps: usize) -> Case {
+    let integrator = text.integrator;
+    let mut text = text.with(CLAMPED).with(&gravity([0.0, 0.0, -2.0]));
     let steps = if integrator == Integrator::Static { 1 } else { steps };
     let step = if integrator == Integrator::Verlet { "half of the largest stable step" } else { "0.01 s" };
     let name = match thin {
