@@ -29,7 +29,7 @@ impl Machine {
     /// This machine, now, with the commit of the checkout around a folder.
     pub fn this(folder: &Path) -> Self {
         let unknown = || "unknown".to_owned();
-        let profile = if cfg!(debug_assertions) { "debug" } else { "release" };
+        let profile = env!("PROFILE");
         let flags = option_env!("RUSTFLAGS").filter(|flags| !flags.is_empty()).unwrap_or("no flags");
         Self {
             cpu: cpu().unwrap_or_else(unknown),
