@@ -24,7 +24,7 @@ use self::mutation::fuzz;
 
 /// Files of other programs.
 fn others(ending: &str) -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mesh/other_programs");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mesh/other_programs");
     let mut files: Vec<PathBuf> = [folder.clone(), folder.join("plane")]
         .iter()
         .flat_map(|folder| folder.read_dir().unwrap().map(|entry| entry.unwrap().path()))

@@ -30,7 +30,7 @@ fn png(picture: &DynamicImage) -> Vec<u8> {
 
 /// Files of other kinds, from another program.
 fn others(ending: &str) -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("pictures");
     let mut files: Vec<_> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|found| found == ending));
     files.sort();
@@ -111,7 +111,7 @@ fn a_picture_of_more_pixels_than_its_bytes_can_hold_is_refused_before_memory_is_
     let grey = GrayImage::from_fn(40, 30, |x, y| [if ring(x, y) { 20 } else { 230 }].into());
     let mut claims = png(&grey.into());
     claims[16..24].copy_from_slice(&[0, 0, 32, 0, 0, 0, 31, 0]);
-    let jpg = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures/grey.jpg")).unwrap();
+    let jpg = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("pictures/grey.jpg")).unwrap();
     let mut claims_too = jpg.clone();
     // The frame header: its marker, length and depth, and then height and width.
     let frame = claims_too.windows(2).position(|pair| pair == [0xff, 0xc0]).unwrap();

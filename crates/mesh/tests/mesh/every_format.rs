@@ -118,7 +118,7 @@ fn named_sets_of_a_plane_mesh_survive_gmsh_files() {
 
 #[test]
 fn a_plate_of_other_programs_is_the_same_in_every_file() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mesh/other_programs/plane");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mesh/other_programs/plane");
     let mut files = 0;
     for path in folder.read_dir().unwrap().map(|entry| entry.unwrap().path()) {
         let mesh = read_surface(&path).unwrap();

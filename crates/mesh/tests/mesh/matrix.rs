@@ -17,7 +17,7 @@ fn counts(set: &MeshSet, is_body: bool) -> BTreeMap<&'static str, u64> {
 
 #[test]
 fn every_file_gives_what_the_reader_of_its_own_program_finds() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mesh/other_programs/matrix");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mesh/other_programs/matrix");
     let expected: Value = serde_json::from_slice(&fs::read(folder.join("expected.json")).unwrap()).unwrap();
     let expected = expected.as_object().unwrap();
     assert!(expected.len() >= 52, "{}", expected.len());

@@ -86,7 +86,7 @@ fn the_energy_falls_the_worst_element_rises_and_the_boundary_stays() {
 
 #[test]
 fn the_tetrahedra_inside_a_surface_lose_their_worst_angles() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/stanford/armadillo_12k.obj");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../data/stanford/armadillo_12k.obj");
     let mesh = stuff(&read_surface(file.as_ref()).unwrap(), 0.05).unwrap();
     let improved = improve_tetrahedra(&mesh, 5, &|_| ());
     is_sound(&mesh, &improved);
@@ -96,7 +96,7 @@ fn the_tetrahedra_inside_a_surface_lose_their_worst_angles() {
 
 #[test]
 fn the_boundary_slides_on_the_surface_and_gains_more() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/stanford/armadillo_12k.obj");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../data/stanford/armadillo_12k.obj");
     let surface = read_surface(file.as_ref()).unwrap();
     let (mesh, solid) = (stuff(&surface, 0.05).unwrap(), Solid::new(&surface));
     let improved = improve_inside(&mesh, 5, &solid, &|_| ()).mesh;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use fem_mesh::{TetrahedralMesh, check, read_tetrahedra, volumes};
 
 fn files(ending: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mesh/other_programs");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mesh/other_programs");
     let files = folder.read_dir().unwrap().map(|entry| entry.unwrap().path());
     files.filter(|path| path.extension().is_some_and(|found| found == ending)).collect()
 }

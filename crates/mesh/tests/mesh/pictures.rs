@@ -9,7 +9,7 @@ use fem_mesh::{Mesh, triangle_quality};
 use nalgebra::Vector2;
 
 fn shipped(name: &str) -> Picture {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/pictures").join(format!("{name}.png"));
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../data/pictures").join(format!("{name}.png"));
     read_picture(&file).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -229,7 +229,7 @@ fn a_picture_without_region_and_edges_that_do_not_fit_are_refused() {
 }
 
 fn sample(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("pictures").join(name)
 }
 
 #[test]

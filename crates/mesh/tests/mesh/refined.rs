@@ -54,7 +54,7 @@ fn the_octahedron_is_cut_about_its_shortest_diagonal() {
 
 #[test]
 fn a_refined_cage_keeps_its_volume_its_surface_and_its_nodes() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/stanford/armadillo_coarse.node");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../data/stanford/armadillo_coarse.node");
     let coarse = read_tetrahedra(&path).unwrap();
     let fine = refined(coarse.clone(), 2);
     check(&fine, &path).unwrap();
@@ -70,7 +70,7 @@ fn a_refined_cage_keeps_its_volume_its_surface_and_its_nodes() {
 
 #[test]
 fn shapes_stay_bounded_however_often_a_mesh_is_refined() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/stanford/armadillo_coarse.node");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../data/stanford/armadillo_coarse.node");
     for coarse in [box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap(), read_tetrahedra(&path).unwrap()] {
         let worst = |times: u32| quality(&refined(coarse.clone(), times)).radius_ratio.value;
         let [plain, first, second] = [0, 1, 2].map(worst);

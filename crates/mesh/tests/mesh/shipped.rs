@@ -8,7 +8,7 @@ use fem_mesh::{boundary, check, quality, read_surface, read_tetrahedra, volumes}
 use crate::box_rule::{assert_closed, enclosed_volume};
 
 pub fn data(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../data").join(name)
 }
 
 /// File, nodes, tetrahedra.

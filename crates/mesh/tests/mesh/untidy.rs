@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use fem_mesh::{AnyMesh, MeshFile, check, check_plane, read_file, surface_quality, volumes};
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mesh/other_programs/untidy").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("mesh/other_programs/untidy").join(name)
 }
 
 fn read(name: &str) -> MeshFile {
