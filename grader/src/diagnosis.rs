@@ -15,6 +15,11 @@ mod terms;
 #[cfg(test)]
 mod tests;
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ptr;
+use std::rc::Rc;
+
 use grader::implementation::{Implementation, Local, Trouble};
 
 use crate::reference::trial::{Input, Observed, Trial};
@@ -46,6 +51,8 @@ struct Candidate<'a> {
     name: String,
     sentence: String,
     answers: Answers<'a>,
+    /// Its answers so far, by the place of the case: the same case is in several selections of cases.
+    known: RefCell<HashMap<*const Case, Option<Rc<Observed>>>>,
     tells_entries: bool,
 }
 
@@ -55,7 +62,18 @@ impl<'a> Candidate<'a> {
         sentence: impl Into<String>,
         answers: impl Fn(&Trial, &Observed) -> Option<Observed> + 'a,
     ) -> Self {
-        Self { name: name.into(), sentence: sentence.into(), answers: Box::new(answers), tells_entries: false }
+        let (name, sentence) = (name.into(), sentence.into());
+        Self { name, sentence, answers: Box::new(answers), known: RefCell::default(), tells_entries: false }
+    }
+
+    /// Its answer in a case, which is computed once.
+    fn answer(&self, case: &Case) -> Option<Rc<Observed>> {
+        let known = self.known.borrow().get(&ptr::from_ref(case)).cloned();
+        known.unwrap_or_else(|| {
+            let answer = (self.answers)(&case.trial, &case.expected).map(Rc::new);
+            self.known.borrow_mut().insert(case, answer.clone());
+            answer
+        })
     }
 
     /// The same with a sentence that tells which entries are right or wrong.
@@ -134,8 +152,8 @@ fn diagnose(function: &str, cases: &[Case], variants: &[Variant]) -> Option<Diag
     // At a vertex or on an edge a display vertex may follow any of several elements, and the choice changes wrong weights.
     let inside: Vec<_> =
         ordinary.iter().copied().filter(|case| !["at vertices", "on edges"].contains(&case.trial.name)).collect();
-    let found = explained(&all).or_else(|| explained(&ordinary));
-    if let Some(found) = found.or_else(|| explained(&inside).filter(|_| function == "build_skinning_matrix")) {
+    let inside = || (function == "build_skinning_matrix").then(|| explained(&inside)).flatten();
+    if let Some(found) = explained(&all).or_else(|| explained(&ordinary)).or_else(inside) {
         return Some(diagnosis(found));
     }
     if nothing.is_some() {
@@ -151,7 +169,7 @@ fn diagnose(function: &str, cases: &[Case], variants: &[Variant]) -> Option<Diag
 /// A candidate's answers times a constant, if that explains the observed answers.
 fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
     let first = cases.first().filter(|case| has_size(&case.trial.input))?;
-    let mistaken = (candidate.answers)(&first.trial, &first.expected)?;
+    let mistaken = candidate.answer(first)?;
     let size = |x: &f64| if x.is_finite() { x.abs() } else { 0.0 };
     let pairs = mistaken.numbers.iter().zip(&first.observed.numbers);
     let (largest, observed) = pairs.max_by(|a, b| size(a.0).total_cmp(&size(b.0)))?;
@@ -222,7 +240,7 @@ fn turned(trial: &Trial) -> Option<Trial> {
 /// Returns true if a mistake solves as many systems of equations as the submission did.
 fn solves_as_often(candidate: &Candidate, case: &Case) -> bool {
     let solves = |answer: &Observed| answer.calls.iter().find(|(name, _)| *name == "solve").map(|(_, n)| *n);
-    let mistaken = (candidate.answers)(&case.trial, &case.expected);
+    let mistaken = candidate.answer(case);
     mistaken.is_some_and(|answer| solves(&answer).is_none_or(|n| solves(&case.observed) == Some(n)))
 }
 
@@ -239,7 +257,7 @@ fn from_variant(variant: &Variant) -> Option<Candidate<'_>> {
 fn explains(candidate: &Candidate, cases: &[&Case]) -> bool {
     let mut telling = 0;
     for case in cases {
-        let Some(mistaken) = (candidate.answers)(&case.trial, &case.expected) else { return false };
+        let Some(mistaken) = candidate.answer(case) else { return false };
         let size = size(&mistaken);
         // The scales of iterative methods allow for round-off that a line search amplifies. This would hide mistakes.
         let iterates = matches!(case.trial.input, Input::Step(_) | Input::Minimum { .. });
