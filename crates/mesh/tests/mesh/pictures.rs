@@ -44,10 +44,24 @@ fn distance(x: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> f64 {
     (x - a - share * side).norm()
 }
 
-/// Largest distance of points along the first polylines from the second ones.
+/// Largest distance of points along the first polylines from the second ones. A point counts no more once a side is as near as the
+/// largest distance so far; the search begins at the side that was nearest to the point before.
 fn one_sided(from: &[[Vector2<f64>; 2]], to: &[[Vector2<f64>; 2]]) -> f64 {
-    let points = from.iter().flat_map(|[a, b]| [0.0, 0.25, 0.5, 0.75].map(|share| a.lerp(b, share)));
-    points.map(|x| to.iter().map(|side| distance(x, *side)).fold(f64::INFINITY, f64::min)).fold(0.0, f64::max)
+    let (mut largest, mut begin) = (0.0, 0);
+    for x in from.iter().flat_map(|[a, b]| [0.0, 0.25, 0.5, 0.75].map(|share| a.lerp(b, share))) {
+        let mut nearest = f64::INFINITY;
+        for index in (begin..to.len()).chain(0..begin) {
+            let distance = distance(x, to[index]);
+            if distance < nearest {
+                (nearest, begin) = (distance, index);
+            }
+            if nearest <= largest {
+                break;
+            }
+        }
+        largest = nearest.max(largest);
+    }
+    largest
 }
 
 /// Hausdorff distance between the boundary of the mesh and the contours, in pixels.
