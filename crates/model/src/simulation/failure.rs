@@ -154,8 +154,12 @@ impl Failure {
         Self { step: steps + 1, time: time + dt, cause, remedy }
     }
 
-    /// The same failure of an explicit method, with its critical time step (s) in the remedy; zero if there is no stable time step.
+    /// The same failure of an explicit method, with its critical time step (s) in the remedy; zero if there is no stable time step. An
+    /// element that is inverted at a corner needs another mesh, not another step.
     pub fn with_critical_time_step(mut self, critical: f64) -> Self {
+        if matches!(self.cause, Cause::InvertedAtCorner { .. }) {
+            return self;
+        }
         self.remedy = if critical == 0.0 {
             "without damping the method is unstable at any time step; use verlet, or implicit_euler".to_owned()
         } else {
@@ -235,3 +239,19 @@ impl fmt::Display for Failure {
 }
 
 impl std::error::Error for Failure {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_remedy_of_an_explicit_method_names_its_critical_step_unless_the_mesh_is_at_fault() {
+        let remedy = |cause| {
+            let failure = Failure::of_step(3, 0.3, 0.1, Integrator::Verlet, cause);
+            failure.with_critical_time_step(0.01).remedy
+        };
+        assert!(remedy(Cause::Inverted { element: 7, J: -0.5 }).contains("critical time step"));
+        let of_corner = remedy(Cause::InvertedAtCorner { element: 7, J: -0.5 });
+        assert!(of_corner.contains("finer mesh") && !of_corner.contains("critical"), "{of_corner}");
+    }
+}
