@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use fem_mesh::read_tetrahedra;
 use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Region, Selector};
-use fem_scene::output::{export, von_mises};
+use fem_output::{export, von_mises};
 
 /// The largest von Mises stress, its element, and the reaction force at the feet.
 pub struct Found {

@@ -7,7 +7,7 @@ use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
-use fem_scene::simulate::quantile;
+use fem_output::quantile;
 use fem_study::machine::Machine;
 
 use crate::cli::{RunArguments, SolverName};

@@ -1,6 +1,6 @@
 //! Several programs in turn, round after round, so that other load on the machine affects all of them alike.
 
-use fem_scene::simulate::quantile;
+use fem_output::quantile;
 use serde::Serialize;
 
 use crate::end::End;

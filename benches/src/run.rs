@@ -4,8 +4,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use fem_model::simulation::Simulation;
-use fem_scene::output::Stats;
-use fem_scene::simulate;
+use fem_output::Stats;
 use fem_scene::tables::Pipeline;
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nix::time::{ClockId, clock_gettime};
@@ -57,7 +56,7 @@ fn here(arguments: &RunArguments) -> Result<Measurement, End> {
     let seconds_setup = start.elapsed().as_secs_f64();
 
     let (wall, cpu) = (Instant::now(), processor_seconds()?);
-    let Ok(run) = simulate::run(&mut *simulation, steps, |_| {
+    let Ok(run) = fem_output::run(&mut *simulation, steps, |_| {
         Ok::<_, std::convert::Infallible>(std::ops::ControlFlow::Continue(()))
     });
     let (wall, cpu) = (wall.elapsed().as_secs_f64(), processor_seconds()? - cpu);

@@ -8,7 +8,7 @@ use fem_model::{
     Body, BodyMesh, Elastic, Integrator, Law, Material, Method, Motion, NeoHookean, Refusal, Selector, SolverSettings,
     Volumetric,
 };
-use fem_scene::output::stresses_at_nodes;
+use fem_output::stresses_at_nodes;
 use fem_scene::tables::SolverTable;
 use nalgebra::{Rotation3, Vector3};
 use serde::Serialize;

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use fem_model::simulation::{Shape, Simulation};
 use fem_model::{Integrator, Preconditioner, SolverKind};
+use fem_scene::Scene;
 use fem_scene::tables::SolverTable;
-use fem_scene::{Scene, output};
 use fem_viewer::scene_edits::{self, Force};
 use fem_viewer::{Change, Editing, Motion, SceneEditor};
 use nalgebra::Vector3;
@@ -101,7 +101,7 @@ impl Window {
         self.simulation.reset();
         self.step(STEPS);
         let desk = Desk::new();
-        output::write_state(&desk.path("window.json"), self.editor.scene(), &*self.simulation).unwrap();
+        fem_scene::write_state(&desk.path("window.json"), self.editor.scene(), &*self.simulation).unwrap();
         self.editor.save(&desk.path("saved.toml"), &*self.simulation).unwrap();
         desk.run_well(&format!("saved.toml --headless --steps {STEPS} --state headless.json"));
         let read = |name: &str| serde_json::from_str::<Value>(&desk.read(name)).unwrap();

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use fem_engine::batch::Batch;
 use fem_model::{Body, EnvironmentValues};
 use fem_scene::Scene;
-use fem_scene::output::{EnvironmentEnd, write_batch};
+use fem_scene::{EnvironmentEnd, write_batch};
 
 use crate::build;
 use crate::cli::RunArguments;
@@ -25,7 +25,7 @@ pub fn run(course: &Course, scene: &Scene, arguments: &RunArguments) -> Result<(
     let mut batch = Batch::new(body.clone(), &scene.method(), scene.environment_values())
         .map_err(|refusal| End::unusable(scene.refused(refusal)))?;
     warn_of_long_steps(scene, &body)?;
-    let steps = fem_scene::simulate::steps(scene);
+    let steps = scene.steps();
     let signals = Signals::catch()?;
     let (bar, start) = (progress_bar(steps), Instant::now());
     let mut together = 1;

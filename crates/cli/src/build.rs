@@ -40,7 +40,7 @@ pub fn build(course: &Course, scene: &Scene) -> Result<Ready, End> {
     // Without gravity a cantilever bends downwards.
     let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
     let up = down.map_or(Vector3::y(), |down| -down);
-    Ok(Ready { simulation, seconds_setup, steps: fem_scene::simulate::steps(scene), up, expected_tip })
+    Ok(Ready { simulation, seconds_setup, steps: scene.steps(), up, expected_tip })
 }
 
 /// Builds the simulation of a scene of the engine that a user has changed, on the shape of the former one if its mesh has not changed.

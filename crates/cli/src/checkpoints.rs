@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use fem_model::simulation::Simulation;
 use fem_scene::Scene;
-use fem_scene::output;
 
 use crate::cli::RunArguments;
 
@@ -31,7 +30,7 @@ impl<'a> Checkpoints<'a> {
 
     /// Writes one. If that fails, the file of the last one stays, and the run goes on with a warning: it may be long.
     pub fn write(&mut self, simulation: &dyn Simulation) {
-        if let Err(error) = output::write_state(self.file, self.scene, simulation) {
+        if let Err(error) = fem_scene::write_state(self.file, self.scene, simulation) {
             eprintln!("warning: no checkpoint after step {}: {error}", simulation.steps());
         }
         self.last = Instant::now();

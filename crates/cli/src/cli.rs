@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use fem_model::Integrator;
+use fem_output::ElementField;
 use fem_scene::Override;
-use fem_scene::output::ElementField;
 
 use crate::mesh::MeshAction;
 use crate::probes::ProbeArgument;

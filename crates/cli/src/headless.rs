@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use fem_mesh::write::Frame;
 use fem_model::simulation::Simulation;
-use fem_scene::output::{self, EnergyRow, Probe, Series};
-use fem_scene::{Scene, simulate};
+use fem_output::{EnergyRow, Probe, Series};
+use fem_scene::Scene;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::build::Ready;
@@ -30,7 +30,7 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
 
     pictures.record(&*simulation)?;
     log.add(&*simulation)?;
-    let run = simulate::run(&mut *simulation, steps, |simulation| {
+    let run = fem_output::run(&mut *simulation, steps, |simulation| {
         bar.inc(1);
         log.add(simulation)?;
         pictures.record(simulation)?;
@@ -105,7 +105,7 @@ impl Log {
     fn write(&self, arguments: &RunArguments, simulation: &dyn Simulation) -> Result<(), End> {
         self.probes.iter().try_for_each(Probe::write).map_err(End::unusable)?;
         if let Some(path) = &arguments.energies {
-            output::write_energies(path, &self.energies).map_err(End::unusable)?;
+            fem_output::write_energies(path, &self.energies).map_err(End::unusable)?;
         }
         self.series.as_ref().map_or(Ok(()), |series| series.write_list(simulation).map(drop)).map_err(End::unusable)
     }

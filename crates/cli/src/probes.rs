@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use fem_model::simulation::Simulation;
 use fem_model::{BodyMesh, highest_node};
-use fem_scene::output::Probe;
+use fem_output::Probe;
 
 use crate::end::End;
 

@@ -5,8 +5,7 @@ use std::path::Path;
 use fem_mesh::write::Frame;
 use fem_model::simulation::{Failure, PlaneContact, Reaction, Simulation};
 use fem_model::{IterationSettings, Method};
-use fem_scene::output::{self, EXPORTS, EnergyRow, Stats};
-use fem_scene::simulate::{Run, quantile};
+use fem_output::{EXPORTS, EnergyRow, Run, Stats, quantile};
 use fem_scene::{Pipeline, Scene};
 use nalgebra::Vector3;
 
@@ -44,7 +43,7 @@ pub fn check(arguments: &RunArguments) -> Result<(), End> {
     match &arguments.export {
         Some(path) if !EXPORTS.iter().any(|known| path.extension().is_some_and(|found| found == *known)) => {
             let extension = path.extension().unwrap_or_default().to_string_lossy();
-            Err(End::unusable(format!("--export {}", output::unknown_export(path, &extension))))
+            Err(End::unusable(format!("--export {}", fem_output::unknown_export(path, &extension))))
         }
         _ => Ok(()),
     }
@@ -80,13 +79,13 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
     let Finished { simulation, scene, run, seconds_setup, energies, frames, expected_tip, .. } = finished;
     let end = end(finished, arguments);
     if let Some(path) = &arguments.state {
-        output::write_state(path, scene, *simulation).map_err(End::unusable)?;
+        fem_scene::write_state(path, scene, *simulation).map_err(End::unusable)?;
     }
     if let Some(path) = &arguments.energies {
-        output::write_energies(path, energies).map_err(End::unusable)?;
+        fem_output::write_energies(path, energies).map_err(End::unusable)?;
     }
     if let Some(path) = &arguments.export {
-        output::export(path, *simulation, frames).map_err(End::unusable)?;
+        fem_output::export(path, *simulation, frames).map_err(End::unusable)?;
     }
     if let Some(path) = &arguments.stats {
         let mut stats = Stats::of(*simulation, run, *seconds_setup);
@@ -110,7 +109,7 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
     end
 }
 
-/// The failure of the run, a signal, steps that have not converged unless the scene accepts those, or energy from nothing since the last judgement.
+/// The failure of the run, a signal, steps that have not converged unless the scene accepts those, or what the last steps have done that no check has seen yet.
 fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     let Finished { simulation, scene, run, signal, .. } = finished;
     let failed = |failure: Failure| match simulation.critical_time_step() {
@@ -124,7 +123,7 @@ fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
         return Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) });
     }
     unconverged(*simulation, scene).map_or(Ok(()), |message| Err(End::Stopped(message)))?;
-    simulation.unexplained_energy().map_or(Ok(()), |failure| Err(failed(failure)))
+    simulation.failure_at_end().map_or(Ok(()), |failure| Err(failed(failure)))
 }
 
 /// The error of steps that have not converged; `None` without any, and if the scene accepts them.

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use fem_model::simulation::Simulation;
-use fem_scene::output::ElementField;
-use fem_scene::{Scene, output};
+use fem_output::ElementField;
+use fem_scene::Scene;
 
 use crate::build::{Ready, build};
 use crate::cli::RunArguments;
@@ -58,7 +58,8 @@ fn check_color(color: Option<ElementField>, simulation: &dyn Simulation) -> Resu
 
 /// Continues from a state file; the steps that it has done count.
 fn resume(file: &Path, scene: &Scene, ready: &mut Ready) -> Result<(), End> {
-    output::resume(file, scene, &mut *ready.simulation).map_err(|error| End::unusable(format!("--resume {error}")))?;
+    fem_scene::resume(file, scene, &mut *ready.simulation)
+        .map_err(|error| End::unusable(format!("--resume {error}")))?;
     let (done, all) = (ready.simulation.steps(), ready.steps);
     if done >= all {
         let problem = format!("is a state after step {done}, and the run ends after step {all}; give more by --steps");

@@ -22,7 +22,7 @@ pub fn available() -> Result<(), String> {
 /// Shows the simulation until the window is closed, then writes the files that the options name.
 #[cfg(feature = "viewer")]
 pub fn run(course: &Course, ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), End> {
-    use fem_scene::simulate::Run;
+    use fem_output::Run;
     use fem_viewer::{Stop, WindowError, WindowOptions};
 
     use crate::headless;

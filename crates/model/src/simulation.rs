@@ -133,9 +133,9 @@ pub trait Diagnostics {
     /// The account of the energy supplied, stored and dissipated; `None` in statics, and for a pipeline that does not compute it.
     fn energy_ledger(&self) -> Option<EnergyLedger>;
 
-    /// The failure of a run that has gained energy which nothing explains, and has not failed because of it yet: a run is judged every few
-    /// steps, and has ended between.
-    fn unexplained_energy(&self) -> Option<Failure>;
+    /// The failure of a run that ends here and has not failed yet: energy gained that nothing explains, or a quadratic element inverted at a
+    /// corner. Both are looked for every few steps, and a run may end between.
+    fn failure_at_end(&self) -> Option<Failure>;
 
     /// Sum of the estimated errors of the displacements in the last step, m; `None` without adaptive steps.
     fn estimated_error(&self) -> Option<f64>;
@@ -204,7 +204,7 @@ impl<S: Undiagnosed + Simulation> Diagnostics for S {
         None
     }
 
-    fn unexplained_energy(&self) -> Option<Failure> {
+    fn failure_at_end(&self) -> Option<Failure> {
         None
     }
 

@@ -1,4 +1,4 @@
-//! Scene files, the bodies that they describe, and the loop that steps a simulation.
+//! Scene files, the bodies that they describe, and the files from which their runs go on.
 //!
 //! [`load`] reads and checks a file; [`tables`] are its tables as they stand there. [`body`] reads the meshes that the scene names
 //! and turns the tables into a [`Body`](fem_model::Body); [`Scene::method`] turns them into a [`Method`](fem_model::Method).
@@ -38,6 +38,7 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
+mod batch_state;
 mod body;
 mod check;
 mod conditions;
@@ -45,21 +46,22 @@ mod error;
 mod identity;
 mod load;
 mod meshes;
-pub mod output;
 mod overrides;
 mod paths;
 mod picture;
 mod save;
-pub mod simulate;
+mod state;
 pub mod tables;
 mod values;
 mod warnings;
 
+pub use batch_state::{EnvironmentEnd, write_batch};
 pub use body::{body, body_of, body_of_shape};
 pub use conditions::Conditions;
 pub use error::SceneError;
 pub use load::{load, load_with, names, parse};
 pub use overrides::Override;
 pub use save::{SaveError, save};
+pub use state::{ResumeError, resume, write_state};
 pub use tables::{Pipeline, Scene};
 pub use warnings::warnings;

@@ -12,7 +12,7 @@ use super::{Files, HandoutError, manifest, stub};
 use crate::rubric::{Role, Rubric};
 
 /// Files and folders that are handed out whole. The tests of the repository, its map and its history are not.
-const WHOLE: [&str; 18] = [
+const WHOLE: [&str; 19] = [
     ".gitignore",
     "LICENSE-APACHE",
     "LICENSE-MIT",
@@ -24,6 +24,7 @@ const WHOLE: [&str; 18] = [
     "crates/features",
     "crates/mesh",
     "crates/model",
+    "crates/output",
     "crates/scene",
     "crates/viewer",
     "data",

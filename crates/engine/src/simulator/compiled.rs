@@ -26,7 +26,7 @@ pub trait Compiled: Real {
     #[doc(hidden)]
     fn energy_ledger(simulator: &Simulator<Self>) -> EnergyLedger;
     #[doc(hidden)]
-    fn unexplained_energy(simulator: &Simulator<Self>) -> Option<Failure>;
+    fn failure_at_end(simulator: &Simulator<Self>) -> Option<Failure>;
     #[doc(hidden)]
     fn reactions(simulator: &Simulator<Self>) -> Vec<Reaction>;
     #[doc(hidden)]
@@ -66,8 +66,8 @@ macro_rules! compiled {
                 simulator.ledger.report(&simulator.system, &simulator.state)
             }
 
-            fn unexplained_energy(simulator: &Simulator<Self>) -> Option<Failure> {
-                simulator.unexplained_energy_now()
+            fn failure_at_end(simulator: &Simulator<Self>) -> Option<Failure> {
+                simulator.failure_at_end_now()
             }
 
             fn reactions(simulator: &Simulator<Self>) -> Vec<Reaction> {

@@ -173,8 +173,8 @@ impl<T: Compiled> Diagnostics for Simulator<T> {
         is_judged(self.kind).then(|| T::energy_ledger(self))
     }
 
-    fn unexplained_energy(&self) -> Option<Failure> {
-        T::unexplained_energy(self)
+    fn failure_at_end(&self) -> Option<Failure> {
+        T::failure_at_end(self)
     }
 
     fn estimated_error(&self) -> Option<f64> {

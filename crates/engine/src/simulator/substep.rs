@@ -87,8 +87,12 @@ impl<T: Real> Simulator<T> {
         Ok(convergence)
     }
 
-    /// The failure of a run whose last steps, which no judgement has seen yet, have gained energy that nothing explains.
-    pub(super) fn unexplained_energy_now(&self) -> Option<Failure> {
+    /// The failure of a run whose last steps, which no check has seen yet, have inverted an element at a corner or gained energy that nothing
+    /// explains.
+    pub(super) fn failure_at_end_now(&self) -> Option<Failure> {
+        if let Err(cause) = self.check_corners() {
+            return Some(self.failure(cause));
+        }
         let is_staggered = self.integrator.has_staggered_velocities();
         let mut ledger = self.ledger.clone();
         if is_staggered {
@@ -168,7 +172,9 @@ impl<T: Real> Simulator<T> {
         if !self.system.elements.allow_inversion() {
             let (J, element) = self.system.elements.min_det_F_of_barriers(&self.state.u);
             Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)?;
-            self.check_corners()?;
+            if !self.kind.is_explicit() || self.counters.steps.is_multiple_of(CORNERS) {
+                self.check_corners()?;
+            }
         }
         self.check_contact()?;
         if !is_judged(self.kind) {
@@ -185,9 +191,6 @@ impl<T: Real> Simulator<T> {
 
     /// Checks that no quadratic element is inverted at a corner, unless its law allows that.
     fn check_corners(&self) -> Result<(), Cause> {
-        if self.kind.is_explicit() && !self.counters.steps.is_multiple_of(CORNERS) {
-            return Ok(());
-        }
         let (J, element) = self.corners.least(&self.system, &self.state.u);
         if J <= 0.0 { Err(Cause::InvertedAtCorner { element, J }) } else { Ok(()) }
     }

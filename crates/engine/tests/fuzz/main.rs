@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 use fem_model::simulation::Simulation;
-use fem_scene::output::{ResumeError, resume, write_state};
+use fem_scene::{ResumeError, resume, write_state};
 use fem_scene::{Scene, parse};
 use tempfile::tempdir;
 

@@ -101,14 +101,14 @@ fn a_run_shorter_than_the_steps_between_two_judgements_is_judged_at_its_end() {
     let of = |method: &str| {
         let mut simulation = build(&oscillator(method, 0.1 / frequency(), ""));
         run(&mut *simulation, 50);
-        simulation.unexplained_energy()
+        simulation.failure_at_end()
     };
     assert!(of("explicit_euler").is_some(), "explicit Euler gains 64 % in 50 steps");
     assert!(of("verlet").is_none() && of("semi_implicit_euler").is_none() && of("rk4").is_none());
     // A body in free fall has the right velocities.
     let mut falling = build(&soft("explicit_euler", 1e-3, "[gravity]\nacceleration = [0, 0, -9.81]\n"));
     run(&mut *falling, 10);
-    assert_eq!(falling.unexplained_energy(), None);
+    assert_eq!(falling.failure_at_end(), None);
 }
 
 #[test]

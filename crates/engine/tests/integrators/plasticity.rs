@@ -1,7 +1,7 @@
 //! Plastic flow in whole runs: closed forms, order, energy, resets and files, and what it costs where it is left out.
 
 use fem_model::simulation::Simulation;
-use fem_scene::output::{resume, write_state};
+use fem_scene::{resume, write_state};
 
 use crate::{DYNAMIC, block, build, distance, of_law, run, side, soft, symmetry, try_build};
 

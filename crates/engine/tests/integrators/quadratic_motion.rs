@@ -2,7 +2,8 @@
 
 use fem_model::element::shares::{load_shares, lumped_mass_shares};
 use fem_model::simulation::Simulation;
-use fem_scene::output::{export, resume, write_state};
+use fem_output::export;
+use fem_scene::{resume, write_state};
 use nalgebra::Vector3;
 
 use crate::quadratic::quadratic;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use fem_model::simulation::Simulation;
-use fem_scene::output::{resume, write_state};
 use fem_scene::{Scene, body};
+use fem_scene::{resume, write_state};
 use tempfile::TempDir;
 
 use crate::{DYNAMIC, run, scene, side, soft};

@@ -281,7 +281,7 @@ fn bodies_whose_volume_stands_apart_keep_their_energy_and_their_angular_momentum
             let (energy, now) = (simulation.energies().total(), angular_momentum(&*simulation));
             assert!(energy < start * (1.0 + 1e-3), "{integrator}: {start} {energy}");
             assert!((now - spin).abs() < 2e-2 * spin.abs(), "{integrator}: {spin} {now}");
-            assert!(simulation.unexplained_energy().is_none(), "{integrator}");
+            assert!(simulation.failure_at_end().is_none(), "{integrator}");
         }
     }
 }

@@ -1,11 +1,25 @@
 //! The numerical method of a scene, and the damping of its body.
 
-use fem_model::{Damping, IterationSettings, Method, NewmarkParameters, NewtonSettings, Precision, SolverSettings};
+use fem_model::{
+    Damping, Integrator, IterationSettings, Method, NewmarkParameters, NewtonSettings, Precision, SolverSettings,
+};
 
 use crate::Scene;
 use crate::tables::{IterationsTable, NewtonTable, SolverTable};
 
+/// Number of steps without a window, if neither the scene nor the arguments give one.
+const DEFAULT_STEPS: usize = 100;
+
 impl Scene {
+    /// The number of steps; by default that of its load steps if it is static.
+    pub fn steps(&self) -> usize {
+        let default = match self.time.integrator {
+            Integrator::Static => self.method().load_steps,
+            _ => DEFAULT_STEPS,
+        };
+        self.time.steps.unwrap_or(default)
+    }
+
     /// The numerical method, defaults filled in.
     pub fn method(&self) -> Method {
         let newton = |table: &NewtonTable| NewtonSettings {

@@ -9,7 +9,7 @@ use crate::runs::row::Row;
 use fem_engine::forces::Moment;
 use fem_engine::simulator::double::{self, Solver};
 use fem_engine::solvers::SolverChoice;
-use fem_scene::simulate::quantile;
+use fem_output::quantile;
 
 /// Time of one call, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

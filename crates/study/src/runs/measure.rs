@@ -8,8 +8,8 @@ use nalgebra::DVector;
 use crate::machine;
 use crate::runs::plan::PlannedRun;
 use fem_model::simulation::{Counters, Simulation};
+use fem_output::quantile;
 use fem_scene::Scene;
-use fem_scene::simulate::quantile;
 
 /// Builds the simulation of a scene with the pipeline that the scene names.
 pub type Factory<'a> = dyn Fn(&Scene) -> Result<Box<dyn Simulation>, String> + Sync + 'a;

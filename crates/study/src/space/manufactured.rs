@@ -18,7 +18,7 @@ use fem_engine::tensor::{Tensor, from_fn};
 use fem_model::element::Element;
 use fem_model::simulation::{Counters, Simulation};
 use fem_model::{Body, BodyMesh};
-use fem_scene::output::StressError;
+use fem_output::StressError;
 use fem_scene::tables::FixedTable;
 use fem_scene::{Scene, body, parse};
 

@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 use fem_mesh::write::save_bytes;
 use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
+use fem_output::{Run, quantile};
 use fem_scene::Scene;
-use fem_scene::output::write_state;
-use fem_scene::simulate::{self, quantile};
+use fem_scene::write_state;
 use nalgebra::{DVector, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -264,14 +264,13 @@ fn finite(x: f64) -> Option<f64> {
 }
 
 /// Takes all steps of a scene, up to a failure.
-fn stepped(scene: &Scene, simulation: &mut dyn Simulation) -> simulate::Run {
-    let run = simulate::run(simulation, simulate::steps(scene), |_| {
-        Ok::<_, std::convert::Infallible>(ControlFlow::Continue(()))
-    });
+fn stepped(scene: &Scene, simulation: &mut dyn Simulation) -> Run {
+    let run =
+        fem_output::run(simulation, scene.steps(), |_| Ok::<_, std::convert::Infallible>(ControlFlow::Continue(())));
     run.unwrap_or_default()
 }
 
-fn figures(begun: &SweptRun, scene: &Scene, simulation: &dyn Simulation, run: &simulate::Run) -> SweptRun {
+fn figures(begun: &SweptRun, scene: &Scene, simulation: &dyn Simulation, run: &Run) -> SweptRun {
     let status = match (&run.failure, simulation.counters().unconverged_steps) {
         (Some(failure), _) => format!("failed: {failure}"),
         (None, 0) => "done".to_owned(),

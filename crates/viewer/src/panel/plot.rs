@@ -3,7 +3,7 @@
 use kiss3d::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use fem_model::simulation::EnergyLedger;
-use fem_scene::output::EnergyRow;
+use fem_output::EnergyRow;
 
 use crate::picture::numbers::{round_up, short};
 use crate::picture::theme;

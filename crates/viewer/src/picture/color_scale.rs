@@ -1,6 +1,6 @@
 //! The scale between the values of a field and colours.
 
-use fem_scene::output::ElementField;
+use fem_output::ElementField;
 
 use super::numbers::round_up;
 

@@ -1,11 +1,11 @@
 //! Pictures and recordings as PNG files.
 
 use std::fs;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use fem_mesh::Problem;
-use image::{ImageError, ImageFormat, RgbImage};
+use image::codecs::png::PngEncoder;
+use image::{ImageError, RgbImage};
 use thiserror::Error;
 
 /// Recorded frames per second of simulated time.
@@ -40,9 +40,10 @@ impl Picture {
     /// Writes a PNG file, whatever the extension of the path. No file is left if writing fails.
     pub fn save(&self, path: &Path) -> Result<(), NotWritten> {
         let not_written = |cause: String| NotWritten { path: path.to_owned(), cause };
-        let mut png = Cursor::new(Vec::new());
-        self.image.write_to(&mut png, ImageFormat::Png).map_err(|error| not_written(cause(error)))?;
-        fem_mesh::write::save_bytes(path, png.get_ref()).map_err(|error| match *error.problem {
+        let mut png = Vec::new();
+        // Named, so that the writers of ten other formats are not compiled.
+        self.image.write_with_encoder(PngEncoder::new(&mut png)).map_err(|error| not_written(cause(error)))?;
+        fem_mesh::write::save_bytes(path, &png).map_err(|error| match *error.problem {
             Problem::Unwritable { reason } => not_written(reason),
             other => not_written(other.to_string()),
         })

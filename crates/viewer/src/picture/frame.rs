@@ -1,7 +1,7 @@
 //! The parts of a state that a picture shows.
 
 use fem_model::simulation::{Plane, Simulation};
-use fem_scene::output::ElementField;
+use fem_output::ElementField;
 use kiss3d::glamx::Vec3;
 
 use super::geometry::{points, single};

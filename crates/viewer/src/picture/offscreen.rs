@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use fem_model::simulation::{Shape, Simulation};
-use fem_scene::output::ElementField;
+use fem_output::ElementField;
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::{CanvasSetup, NumSamples, OffscreenSurface};
 use nalgebra::Vector3;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicUsize;
 
-use fem_scene::output::ElementField;
+use fem_output::ElementField;
 use nalgebra::Vector3;
 
 use crate::editing::editor::Editing;

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use fem_scene::output::EnergyRow;
+use fem_output::EnergyRow;
 
 /// Simulated time that the plot spans, s.
 pub const SPAN: f64 = 10.0;

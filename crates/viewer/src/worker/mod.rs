@@ -19,8 +19,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
 use fem_model::simulation::{Click, Failure, Parameter, Pull, Shape, Simulation};
+use fem_output::{ElementField, EnergyRow};
 use fem_scene::Scene;
-use fem_scene::output::{ElementField, EnergyRow};
 use nalgebra::Vector3;
 
 use crate::editing::change::Change;

@@ -10,8 +10,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use fem_model::simulation::Simulation;
-use fem_scene::output::EnergyRow;
-use fem_scene::simulate::quantile;
+use fem_output::EnergyRow;
+use fem_output::quantile;
 use nalgebra::Vector3;
 
 use super::history::History;

@@ -153,7 +153,7 @@ impl Diagnostics for Fake {
     fn energy_ledger(&self) -> Option<EnergyLedger> {
         None
     }
-    fn unexplained_energy(&self) -> Option<Failure> {
+    fn failure_at_end(&self) -> Option<Failure> {
         None
     }
     fn estimated_error(&self) -> Option<f64> {

@@ -22,7 +22,7 @@ fn the_stress_of_a_simple_shear_of_the_neo_hookean_law() {
         assert!(distance(&stress, &expected) < 1e-13, "{stress:?}");
         let von_mises_expected = ((along - across).powi(2) + 12.0 * (law.C * shear).powi(2)).sqrt();
         let stress = nalgebra::Matrix3::from_fn(|i, j| stress[i][j]);
-        assert_near(fem_scene::output::von_mises(&stress), von_mises_expected);
+        assert_near(fem_output::von_mises(&stress), von_mises_expected);
     }
 }
 

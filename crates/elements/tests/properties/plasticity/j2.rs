@@ -21,7 +21,7 @@ fn kirchhoff(law: &J2<f64>, G: &Tensor<f64>) -> Tensor<f64> {
 }
 
 fn von_mises(tau: &Tensor<f64>) -> f64 {
-    fem_scene::output::von_mises(&nalgebra::Matrix3::from_fn(|i, j| tau[i][j]))
+    fem_output::von_mises(&nalgebra::Matrix3::from_fn(|i, j| tau[i][j]))
 }
 
 /// Displacement gradients of det F > 0.3 of random sizes.

@@ -2,15 +2,16 @@
 //! sup B(u, p) / ‖∇u‖ ≥ β ‖p‖ for all pressures stays where meshes are refined, or pressures oscillate and elements lock.
 
 use fem_mesh::{Pattern, box_mesh, rectangle_mesh};
-use fem_model::{Axis, Body, BodyMesh, Elastic, Law, Material, Selector, Volumetric};
+use fem_model::{Body, BodyMesh, Elastic, Law, Material, Volumetric};
 use nalgebra::{DMatrix, Vector3};
 
 use super::CornerPressures;
-use crate::simulator::double::{self, System};
-use crate::solvers::{Ldlt, SolverChoice};
+use crate::numbering::Numbering;
+use crate::solvers::Ldlt;
 
-/// A square or a cube of so many cells along an edge, fixed at one side; nodes within are moved by a part of a cell.
-fn system(dimension: usize, cells: usize, order: usize) -> System {
+/// The pressures of a square or a cube of so many cells along an edge, with the numbering of its nodes: those at one side are fixed. Nodes within
+/// are moved by a part of a cell.
+fn pressures(dimension: usize, cells: usize, order: usize) -> (CornerPressures, Numbering) {
     let moved = |x: Vector3<f64>, number: usize| {
         let is_inside = (0..dimension).all(|i| x[i] > 1e-9 && x[i] < 1.0 - 1e-9);
         let shift = |i: usize| if i < dimension { ((3 * number + i) as f64 * 2.399).sin() } else { 0.0 };
@@ -27,18 +28,26 @@ fn system(dimension: usize, cells: usize, order: usize) -> System {
     };
     let material = Material::new(Law::Linear(Elastic::new(3.0, 0.5)), 1.0);
     let material = Material { volumetric: Volumetric::Mixed, ..material };
-    let body = Body::new(shape.of_order(order).unwrap(), material).unwrap().fix(&Selector::least(Axis::X)).unwrap();
-    double::system(body, SolverChoice::Cholesky)
+    let body = Body::new(shape.of_order(order).unwrap(), material).unwrap();
+    let vertices = body.shape.mesh.vertices();
+    let (mut mesh_node, fixed): (Vec<u32>, Vec<u32>) =
+        (0..vertices.len() as u32).partition(|&node| vertices[node as usize].x > 1e-9);
+    let free = mesh_node.len();
+    mesh_node.extend(fixed);
+    let mut engine_node = vec![0; mesh_node.len()];
+    mesh_node.iter().zip(0..).for_each(|(&node, number)| engine_node[node as usize] = number);
+    let numbering = Numbering { mesh_node, engine_node, free };
+    (CornerPressures::new(&body, &numbering).unwrap(), numbering)
 }
 
 /// β of the pressures of a body, with or without the stabilization of linear elements.
-fn beta(system: &System, is_stabilized: bool) -> f64 {
-    let (mixed, dimension) = (system.forces.mixed().unwrap(), system.shape.mesh.dimension());
-    let (free, count) = (system.free(), mixed.count());
+fn beta(dimension: usize, cells: usize, order: usize, is_stabilized: bool) -> f64 {
+    let (ref mixed, Numbering { free, mesh_node, .. }) = pressures(dimension, cells, order);
+    let count = mixed.count();
     let mut laplacian = laplacian(mixed, free);
     let mut B = vec![DMatrix::zeros(free, count); dimension];
     let mut pairs = mixed.couplings();
-    mixed.coupling(&vec![[0.0; 3]; system.nodes()], |of| {
+    mixed.coupling(&vec![[0.0; 3]; mesh_node.len()], |of| {
         let (corner, node) = pairs.next().unwrap();
         if node < free {
             (0..dimension).for_each(|i| B[i][(node, corner as usize)] += of[i]);
@@ -90,7 +99,7 @@ fn laplacian(mixed: &CornerPressures, free: usize) -> Ldlt {
 
 /// β on meshes with more and more cells, and its order in their size: zero where it stays.
 fn sequence(dimension: usize, cells: [usize; 3], order: usize, is_stabilized: bool) -> ([f64; 3], f64) {
-    let betas = cells.map(|cells| beta(&system(dimension, cells, order), is_stabilized));
+    let betas = cells.map(|cells| beta(dimension, cells, order, is_stabilized));
     let order = (betas[0] / betas[2]).ln() / (cells[2] as f64 / cells[0] as f64).ln();
     (betas, order)
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_model::{Body, Elastic, Law, Material, PlaneState, Selector};
-use fem_scene::output::stresses_at_nodes;
+use fem_output::stresses_at_nodes;
 
 use super::case::{Level, Mapped, Quantity, constrain, equilibrium, part};
 use crate::study::Part;

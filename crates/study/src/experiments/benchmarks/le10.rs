@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_model::{Axis, Body, Elastic, Law, Material, Selector};
-use fem_scene::output::stresses_at_nodes;
+use fem_output::stresses_at_nodes;
 use nalgebra::Vector3;
 
 use super::case::{Level, Mapped, Quantity, constrain, equilibrium, part};

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 use std::path::Path;
 
 use fem_model::{Body, BodyMesh, Elastic, Law, Material, Selector};
-use fem_scene::output::stresses_at_nodes;
+use fem_output::stresses_at_nodes;
 use nalgebra::Vector3;
 
 use super::case::{Level, Mapped, Quantity, constrain, equilibrium, part};

@@ -15,8 +15,8 @@ use crate::runs::plan::{self, Extent, Ladder, PlannedRun};
 use crate::runs::row::{Row, Times};
 use crate::space::nested::RichardsonEstimate;
 use fem_model::Integrator;
+use fem_output::quantile;
 use fem_scene::Scene;
-use fem_scene::simulate::quantile;
 use meshes::StudyMeshes;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use fem_scene::output::ElementField;
+use fem_output::ElementField;
 use kiss3d::egui::pos2;
 use kiss3d::event::{Action, Key, Modifiers, MouseButton, WindowEvent};
 use kiss3d::glamx::Vec2;

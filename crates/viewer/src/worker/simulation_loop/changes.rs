@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use fem_model::simulation::Pull;
-use fem_scene::output::ElementField;
+use fem_output::ElementField;
 
 use super::SimulationLoop;
 use crate::editing::change::Change;

@@ -1,22 +1,27 @@
-//! The files of a run: state, energies, statistics, the final mesh, a series of meshes.
+//! The loop that steps a simulation, and the files of its run: energies, statistics, the final mesh with its fields, a series of meshes.
+//!
+//! All of it is about a [`Simulation`], whatever has built that: a scene file or a program.
 
-mod batch;
+#![deny(missing_docs)]
+#![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use
+#![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
+#![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
+
 mod element_field;
 mod energies;
 mod fields;
 mod probe;
 mod recovery;
+mod run;
 mod series;
-mod state;
 mod stress_error;
 
-pub use batch::{EnvironmentEnd, write_batch};
 pub use element_field::ElementField;
 pub use energies::{EnergyRow, write_energies};
 pub use fields::{stresses_at_nodes, von_mises};
 pub use probe::Probe;
+pub use run::{Run, quantile, run};
 pub use series::Series;
-pub use state::{ResumeError, resume, write_state};
 pub use stress_error::StressError;
 
 use fields::export_fields;
@@ -25,7 +30,6 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::simulate::{Run, quantile};
 use fem_mesh::write::{Frame, save_bytes, write_glb, write_surface};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
 use fem_model::simulation::{EnergyLedger, Part, PlaneContact, PlasticFlow, Simulation};

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::state::write_list;
+use crate::state::write_list;
 use fem_mesh::MeshError;
 use fem_mesh::write::save;
 use fem_model::EnvironmentValues;

@@ -66,7 +66,7 @@ pub fn write_state(path: &Path, scene: &Scene, simulation: &dyn Simulation) -> R
 }
 
 /// Numbers with 17 significant digits.
-pub(super) fn write_list(out: &mut dyn Write, list: &[f64]) -> io::Result<()> {
+pub(crate) fn write_list(out: &mut dyn Write, list: &[f64]) -> io::Result<()> {
     for (number, value) in list.iter().enumerate() {
         let comma = if number == 0 { "" } else { ", " };
         write!(out, "{comma}{value:.16e}")?;

@@ -3,22 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use fem_model::Integrator;
 use fem_model::simulation::{Failure, Simulation};
-
-use crate::Scene;
-
-/// Number of steps without a window, if neither the scene nor the arguments give one.
-const DEFAULT_STEPS: usize = 100;
-
-/// The scene's number of steps; by default that of its load steps if it is static.
-pub fn steps(scene: &Scene) -> usize {
-    let default = match scene.time.integrator {
-        Integrator::Static => scene.method().load_steps,
-        _ => DEFAULT_STEPS,
-    };
-    scene.time.steps.unwrap_or(default)
-}
 
 /// Step times of a run, and the failure that ended it.
 #[derive(Clone, Debug, Default)]
