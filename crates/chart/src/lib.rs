@@ -11,29 +11,23 @@
 #![deny(missing_docs)]
 
 mod axis;
-mod bars;
 mod chart;
-mod distribution;
-mod dot_rows;
-mod grid;
 mod heat_map;
 mod histogram;
 pub mod page;
 mod picture;
 mod region;
+mod rows;
 mod svg;
 mod triangles;
 
 pub use axis::{Axis, Scale};
-pub use bars::{Bar, bars};
 pub use chart::{Chart, Dot, Guide, Series};
-pub use distribution::distribution;
-pub use dot_rows::{DotRow, dot_rows};
-pub use grid::grid;
 pub use heat_map::{Cell, Curve, HeatMap, Shade};
-pub use histogram::histogram;
-pub use picture::Picture;
+pub use histogram::{distribution, histogram};
+pub use picture::{Picture, grid};
 pub use region::region;
+pub use rows::{Bar, DotRow, bars, dot_rows};
 pub use triangles::{triangles, triangles_in_frame};
 
 /// Colours of all pictures, light and dark.

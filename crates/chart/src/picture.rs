@@ -1,4 +1,4 @@
-//! A finished drawing, for a page or as a file.
+//! A finished drawing, for a page or as a file; and several of them on one.
 
 use maud::{Markup, PreEscaped, html};
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ impl Picture {
         html! { svg viewBox={ "0 0 " (width) " " (height) } role="img" aria-label=(self.label) { "\n" (self.inner) } "\n" }
     }
 
-    /// The same at another width, pixels, with smaller or larger texts; for a [`grid`](crate::grid).
+    /// The same at another width, pixels, with smaller or larger texts; for a [`grid`].
     pub fn scaled(self, width: f64) -> Self {
         let (own, height) = self.size;
         let height_then = height * width / own;
@@ -104,6 +104,31 @@ impl Picture {
         };
         file.into_string() + "\n"
     }
+}
+
+/// Height of the title of each picture of a grid, and the space between pictures, pixels.
+const GRID_TITLE: f64 = 22.0;
+const GAP: f64 = 16.0;
+
+/// Pictures in rows of `columns`, each under its label; their legends are left out.
+pub fn grid(label: &str, columns: usize, pictures: &[Picture]) -> Picture {
+    let (mut parts, mut y, mut width) = (Vec::<Markup>::new(), 0.0, 0.0_f64);
+    for row in pictures.chunks(columns.max(1)) {
+        let mut x = 0.0;
+        for picture in row {
+            let (w, h) = picture.size;
+            let (left, top) = (x, y + GRID_TITLE);
+            parts.push(html! {
+                (text("name", "start", (left + 10.0, top - 7.0), &picture.label))
+                svg x=(left) y=(top) width=(w) height=(h) viewBox={ "0 0 " (w) " " (h) } { (picture.inner) } "\n"
+            });
+            x += w + GAP;
+        }
+        width = width.max(x - GAP);
+        y += GRID_TITLE + GAP + row.iter().map(|picture| picture.size.1).fold(0.0, f64::max);
+    }
+    let inner = html! { @for part in parts { (part) } };
+    Picture { size: (width.max(1.0), y.max(1.0)), label: label.to_owned(), inner, legend: Vec::new() }
 }
 
 /// [`STYLE`] with the colours of the light page written out: viewers other than browsers know no variables of CSS, and draw in black.

@@ -10,7 +10,7 @@
 //! let [coarse, fine] = [4, 8].map(|cells| manufactured::solve("linear", Element::ALL[0], cells));
 //! let order = (coarse?.l2 / fine?.l2).log2();
 //! assert!(order > 1.5, "{order}");
-//! # Ok::<(), String>(())
+//! # Ok::<(), fem_study::study::Problem>(())
 //! ```
 
 #![deny(missing_docs)]
@@ -18,7 +18,6 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
-mod csv_table;
 pub mod experiments;
 pub mod linear;
 pub mod machine;

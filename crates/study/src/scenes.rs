@@ -1,46 +1,42 @@
-//! Bodies and simulations of scenes in memory.
+//! Bodies and simulations of studies as values, and what many of them have in common.
 
 use std::fmt;
-use std::path::Path;
 
-use fem_engine::simulator::{Compiled, Simulator, build};
+use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
-use fem_model::{Body, BodyMesh};
-use fem_scene::{Scene, SceneError, body, body_of, parse};
+use fem_model::{Axis, Body, Law, Material, Method, Motion, Refusal, Selector, Volumetric, nodes};
+use nalgebra::Vector3;
+
+use crate::study::Result;
 
 /// The elements of a body, and the form of their volume energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Elements {
     /// Order of the shape functions.
     pub order: usize,
-    /// Value of `material.volumetric`.
-    pub volumetric: &'static str,
+    /// Evaluation of the energy of the volume.
+    pub volumetric: Volumetric,
 }
 
-/// The elements of a scene that names none.
-pub const LINEAR: Elements = Elements { order: 1, volumetric: "standard" };
+/// Linear elements with the energy of their law.
+pub const LINEAR: Elements = Elements { order: 1, volumetric: Volumetric::Standard };
 
 /// Quadratic ones with the energy of their law.
-pub const QUADRATIC: Elements = Elements { order: 2, volumetric: "standard" };
+pub const QUADRATIC: Elements = Elements { order: 2, volumetric: Volumetric::Standard };
 
 /// Elements that do not lock near ν = ½, or hardly.
-pub const WITHOUT_LOCKING: [Elements; 5] =
-    [LINEAR.with("averaged"), LINEAR.with("mixed"), QUADRATIC, QUADRATIC.with("averaged"), QUADRATIC.with("mixed")];
+pub const WITHOUT_LOCKING: [Elements; 5] = [
+    LINEAR.with(Volumetric::Averaged),
+    LINEAR.with(Volumetric::Mixed),
+    QUADRATIC,
+    QUADRATIC.with(Volumetric::Averaged),
+    QUADRATIC.with(Volumetric::Mixed),
+];
 
 impl Elements {
     /// The same elements with another form of their volume energy.
-    pub const fn with(self, volumetric: &'static str) -> Self {
+    pub const fn with(self, volumetric: Volumetric) -> Self {
         Self { volumetric, ..self }
-    }
-
-    /// The lines of `[mesh]` and `[material]` that name them, none for those of a scene that names none.
-    pub fn keys(self) -> [String; 2] {
-        let order = if self.order == 1 { String::new() } else { format!("order = {}\n", self.order) };
-        let volumetric = match self.volumetric {
-            "standard" => String::new(),
-            form => format!("volumetric = \"{form}\"\n"),
-        };
-        [order, volumetric]
     }
 }
 
@@ -48,60 +44,85 @@ impl fmt::Display for Elements {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let order = if self.order == 1 { "linear" } else { "quadratic" };
         match self.volumetric {
-            "standard" => write!(f, "{order} elements"),
-            form => write!(f, "{order} elements, {form}"),
+            Volumetric::Standard => write!(f, "{order} elements"),
+            form => write!(f, "{order} elements, {}", form.name()),
         }
     }
 }
 
-/// `[mesh]` of a scene whose mesh another one replaces.
-pub const REPLACED: &str = "box = { size = [1, 1, 1], cells_per_unit = 1 }";
+/// Springs along the edges of the mesh in place of a law.
+pub const SPRINGS: &str = Law::SPRINGS.name;
 
-/// The same of a flat body.
-pub const REPLACED_FLAT: &str = "rectangle = { size = [1, 1], cells_per_unit = 1 }";
-
-/// The text of a scene for the engine: its mesh, material and time, and further tables.
-pub fn text(mesh: &str, material: &str, time: &str, tables: &str) -> String {
-    format!("pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\n{material}\n[time]\n{time}\n{tables}")
-}
-
-/// The scene of a text and its body; `mesh` takes the place of the scene's own.
-pub fn scene_and_body(text: &str, mesh: Option<BodyMesh>) -> Result<(Scene, Body), SceneError> {
-    let scene = parse(text, Path::new("case.toml"))?;
-    let body = match mesh {
-        Some(mesh) => body_of(&scene, mesh, Path::new(""))?,
-        None => body(&scene, Path::new(""))?,
+/// A material of a density, kg/m³, by the name of its law in scene files, with Young's modulus, Pa, and Poisson's ratio, which springs have not.
+pub fn material(law: &str, young: f64, poisson: f64, density: f64) -> Result<Material> {
+    let facts = Law::named(law).ok_or_else(|| format!("there is no law `{law}`"))?;
+    let given = |parameter: &str| match parameter {
+        "young" => Some(young),
+        "poisson" => Some(poisson),
+        _ => None,
     };
-    Ok((scene, body))
+    Ok(Material::new((facts.of)(&given), density))
 }
 
-/// The simulator of a text, in the precision that the text names.
-pub fn simulator<T: Compiled>(text: &str, mesh: Option<BodyMesh>) -> Result<Simulator<T>, SceneError> {
-    let (scene, body) = scene_and_body(text, mesh)?;
-    Simulator::new(body, &scene.method()).map_err(|refusal| scene.refused(refusal))
+/// Prescribes the displacement of nodes along one axis, m, which grows with the load steps of a static analysis.
+pub fn displaced(body: Body, selector: &Selector, axis: Axis, by: f64) -> Result<Body, Refusal> {
+    let components = [Axis::X, Axis::Y, Axis::Z].map(|other| other == axis);
+    body.prescribe(selector, components, Motion::by(components.map(|moves| if moves { by } else { 0.0 })))
 }
 
-/// The simulation of a text in double precision.
-pub fn double(text: &str, mesh: Option<BodyMesh>) -> Result<Simulator<f64>, String> {
-    simulator(text, mesh).map_err(|error| error.to_string())
+/// Adds a velocity at the start, m/s, to that of some nodes.
+pub fn thrown(mut body: Body, selector: &Selector, velocity: [f64; 3]) -> Result<Body, Refusal> {
+    let mesh = &body.shape.mesh;
+    body.initial_velocity.resize(mesh.vertices().len(), Vector3::zeros());
+    for node in nodes("initial_velocity", selector, mesh)? {
+        body.initial_velocity[node] += Vector3::from(velocity);
+    }
+    Ok(body)
 }
 
-/// The simulation of a text on a mesh in memory, in any precision.
-pub fn simulation(text: &str, mesh: impl Into<BodyMesh>) -> Result<Box<dyn Simulation>, String> {
-    let (scene, body) = scene_and_body(text, Some(mesh.into())).map_err(|error| error.to_string())?;
-    build(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
+/// Adds a rotation at the start, 1/s, about an axis through the centre of mass of a uniform body.
+pub fn spinning(mut body: Body, axis: [f64; 3], rate: f64) -> Body {
+    let (mesh, density) = (&body.shape.mesh, body.material.density);
+    let (mut mass, mut moment) = (0.0, Vector3::zeros());
+    for (nodes, volume) in mesh.corners().zip(mesh.volumes()) {
+        let sum: Vector3<f64> = nodes.iter().map(|&node| mesh.vertices()[node]).sum();
+        mass += density * volume;
+        moment += density * volume / nodes.len() as f64 * sum;
+    }
+    let (centre, spin) = (moment / mass, rate * Vector3::from(axis).normalize());
+    body.initial_velocity.resize(mesh.vertices().len(), Vector3::zeros());
+    for (velocity, x) in body.initial_velocity.iter_mut().zip(mesh.vertices()) {
+        *velocity += spin.cross(&(x - centre));
+    }
+    body
+}
+
+/// The simulation of a body in double precision, whose mass is lumped if the method does so by default.
+pub fn simulator(body: Body, method: &Method) -> Result<Simulator<f64>, Refusal> {
+    Simulator::new(body.lump_mass_for(method), method)
 }
 
 /// Advances by one step, which must converge.
-pub fn step(simulation: &mut dyn Simulation) -> Result<(), String> {
-    simulation.step().map_err(|failure| failure.to_string())?;
+pub fn step(simulation: &mut dyn Simulation) -> Result<()> {
+    simulation.step()?;
     match simulation.counters().unconverged_steps {
         0 => Ok(()),
-        _ => Err(format!("step {} has not converged", simulation.steps())),
+        _ => Err(format!("step {} has not converged", simulation.steps()).into()),
     }
 }
 
 /// Advances by a number of steps, each of which must converge.
-pub fn steps(simulation: &mut dyn Simulation, count: usize) -> Result<(), String> {
+pub fn steps(simulation: &mut dyn Simulation, count: usize) -> Result<()> {
     (0..count).try_for_each(|_| step(simulation))
+}
+
+/// Displacement of a node, m.
+pub fn displacement(simulation: &dyn Simulation, node: usize) -> Vector3<f64> {
+    simulation.positions().fixed_rows::<3>(3 * node) - simulation.shape().mesh.vertices()[node]
+}
+
+/// Displacements of all nodes, m.
+pub fn displacements(simulation: &dyn Simulation) -> Vec<Vector3<f64>> {
+    let (shape, q) = (simulation.shape(), simulation.positions());
+    shape.mesh.vertices().iter().enumerate().map(|(i, X)| q.fixed_rows::<3>(3 * i) - X).collect()
 }

@@ -5,6 +5,8 @@ use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector2;
 
+use crate::study::Result;
+
 /// Width of a picture in a grid of them, pixels: two are legible side by side on a phone.
 pub const CELL: f64 = 240.0;
 
@@ -27,7 +29,7 @@ pub fn band(a: Vector2<f64>, b: Vector2<f64>, width: f64) -> [Triangle; 2] {
 }
 
 /// A picture of a grid. `frame` has two opposite corners of what every picture of the grid shows, m.
-pub fn drawn(label: &str, triangles: &[Triangle], frame: [[f64; 3]; 2]) -> Result<Picture, String> {
+pub fn drawn(label: &str, triangles: &[Triangle], frame: [[f64; 3]; 2]) -> Result<Picture> {
     let picture =
         triangles_in_frame(label, triangles, &frame).ok_or_else(|| format!("{label}: no triangle is seen"))?;
     Ok(picture.scaled(CELL))

@@ -9,10 +9,10 @@ pub mod rtfem;
 use std::io;
 use std::path::Path;
 
-use crate::study::{Case, Finished, Found, Page, Part, Study, write};
+use crate::study::{Case, Finished, Found, Page, Part, Result, Study, write};
 
 /// A part: its name as an argument of the program, its title, and its run, which takes the folder `data` and whether it is to be short.
-type Entry = (&'static str, &'static str, fn(&Path, bool) -> Result<Part, String>);
+type Entry = (&'static str, &'static str, fn(&Path, bool) -> Result<Part>);
 
 /// A page of experiments: those of a thesis, or published cases.
 pub struct Collection {

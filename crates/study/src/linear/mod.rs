@@ -1,9 +1,8 @@
 //! Convergence of the linear solvers, iteration by iteration, beside the bounds of Shewchuk, An Introduction to the Conjugate Gradient Method
 //! Without the Agonizing Pain (1994), equations 28 and 52: on the matrix of a scene's first step, and on its stiffness.
 
-mod conjugate_directions;
 mod incomplete_cholesky;
-mod steepest_descent;
+mod iterations;
 
 #[cfg(test)]
 mod tests;
@@ -24,9 +23,8 @@ use fem_scene::Scene;
 
 use crate::space::conditioning::{irregular, largest_eigenvalue};
 use crate::study::{Case, Finished, Found, Mark, Page, Part, Study, Table, write};
-use conjugate_directions::conjugate_directions;
 use incomplete_cholesky::IncompleteCholesky;
-use steepest_descent::steepest_descent;
+use iterations::{conjugate_directions, steepest_descent};
 
 /// Relative residual at which solvers end, in a whole study and in a short one.
 const TOLERANCE: [f64; 2] = [1e-8, 1e-4];
@@ -281,7 +279,7 @@ impl LinearSolvers<'_> {
         };
         let text =
             format!("The matrix is {what}: {} unknowns, κ = {:.4e}.", 3 * of.system.free(), of.condition / MARGIN);
-        let table = Table::new(&name, &["solver", ">iteration", ">residual", ">error", ">bound"], rows);
+        let table = Table::new(&name, "solver | >iteration | >residual | >error | >bound", rows);
         let caption = format!("Solvers on {what}; lines without a name are bounds.");
         Ok(Part::new(text).marks(marks).tables([table]).chart(name, &chart, caption))
     }

@@ -2,14 +2,15 @@
 //!
 //! Forces are the engine's. The mass is assembled and factorised here, by code that the engine's integrators do not use.
 
+use std::f64::consts::TAU;
+
 use fem_engine::forces::Moment;
 use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::SolverChoice;
-use fem_model::{Body, LoadCurve};
+use fem_model::{Body, LoadCurve, Motion};
 use nalgebra::Vector3;
 
-use super::mass::{Density, MassInverse};
-use super::prescribed_motion::{kinematics, moves};
+use super::mass::MassInverse;
 
 /// Displacements, m, and velocities, m/s, of all nodes.
 pub type Phase = [Vec<[f64; 3]>; 2];
@@ -48,12 +49,10 @@ impl Equations {
             return Err("the material flows, which the reference in time does not compute".to_owned());
         }
         let kinks = kinks(&body);
-        let density = Density::new(&body);
-        let velocities = body.initial_velocity.clone();
-        let system = double::system(body, SolverChoice::Cholesky);
-        let mass = MassInverse::new(&density, &system)?;
+        let system = double::system(body.clone(), SolverChoice::Cholesky);
+        let mass = MassInverse::new(&body, &system)?;
         let has_prescribed_motion = system.dirichlet.motions().any(|(_, motion)| moves(motion));
-        let initial_velocity = initial_velocity(&velocities, &system);
+        let initial_velocity = initial_velocity(&body.initial_velocity, &system);
         Ok(Self { system, mass, has_prescribed_motion, initial_velocity, kinks })
     }
 
@@ -154,7 +153,7 @@ impl Equations {
             scratch.force.resize(n, [0.0; 3]);
             double::add_stiffness_times(&self.system, &rest, &d, &mut scratch.force);
             for (force, _) in self.system.forces.active().filter(|(force, _)| !force.is_internal()) {
-                force.add_hessian_times(1.0, &rest, fem_engine::forces::Moment::at(0.0), &d, &mut scratch.force);
+                force.add_hessian_times(1.0, &rest, Moment::at(0.0), &d, &mut scratch.force);
             }
             let mut next = vec![[0.0; 3]; n];
             self.mass.apply(&scratch.force, &mut next, &mut scratch.right);
@@ -192,3 +191,27 @@ fn kinks(body: &Body) -> Vec<f64> {
 
 /// Products with M⁻¹ K.
 const POWER_ITERATIONS: usize = 60;
+
+/// Returns true if the motion is not at rest.
+fn moves(motion: &Motion) -> bool {
+    motion.rotation.as_ref().is_some_and(|rotation| rotation.turns != 0.0) || motion.displacement != Vector3::zeros()
+}
+
+/// Position, m, velocity, m/s, and acceleration, m/s², at a time, s, of a node with the undeformed position X. `begin` is the start of
+/// the interval between two velocity jumps that holds `time`.
+pub(super) fn kinematics(motion: &Motion, X: &Vector3<f64>, begin: f64, time: f64) -> [Vector3<f64>; 3] {
+    let Some(curve) = &motion.curve else { return [*X, Vector3::zeros(), Vector3::zeros()] };
+    let fraction = curve.factor(time);
+    // Between two kinks the curve is linear: its rate at the end of the interval is that at its begin.
+    let [rate, change] = curve.derivatives(if curve.kinks().is_empty() { time } else { begin });
+    let place = motion.position(X, fraction);
+    let displacement = motion.displacement;
+    let (mut first, mut second) = (displacement, Vector3::zeros());
+    if let Some(rotation) = &motion.rotation {
+        let angle = TAU * rotation.turns * rotation.axis.into_inner();
+        let arm = place - fraction * displacement - rotation.center;
+        first += angle.cross(&arm);
+        second = angle.cross(&angle.cross(&arm));
+    }
+    [place, rate * first, rate * rate * second + change * first]
+}

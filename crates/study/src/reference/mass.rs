@@ -7,22 +7,6 @@ use fem_model::{Body, BodyMesh};
 use super::ldl::Ldl;
 use crate::space::points::points;
 
-/// Density of the elements, and whether the mass is lumped.
-pub(super) struct Density {
-    of_material: f64,
-    /// Relative density of each element; empty for a uniform body.
-    factors: Vec<f64>,
-    is_lumped: bool,
-}
-
-impl Density {
-    /// The density of a body.
-    pub fn new(body: &Body) -> Self {
-        let factors = body.density_factors.clone();
-        Self { of_material: body.material.density, factors, is_lumped: body.lumped_mass }
-    }
-}
-
 /// Factors of the mass matrix: directions that are free at the same nodes share one.
 pub(super) struct MassInverse(Vec<Factor>);
 
@@ -35,7 +19,7 @@ struct Factor {
 
 impl MassInverse {
     /// Factorises the consistent mass, or the lumped one if the body has that.
-    pub fn new(density: &Density, system: &System) -> Result<Self, String> {
+    pub fn new(body: &Body, system: &System) -> Result<Self, String> {
         let mut is_free = vec![[1.0; 3]; system.nodes()];
         system.dirichlet.clear_constrained(&mut is_free);
         let mut factors: Vec<Factor> = Vec::new();
@@ -45,7 +29,7 @@ impl MassInverse {
                 known.directions[axis] = true;
                 continue;
             }
-            let factor = Ldl::new(&mass(density, system, &nodes)).ok_or("the mass is not positive definite")?;
+            let factor = Ldl::new(&mass(body, system, &nodes)).ok_or("the mass is not positive definite")?;
             factors.push(Factor { nodes, factor, directions: std::array::from_fn(|i| i == axis) });
         }
         Ok(Self(factors))
@@ -76,7 +60,7 @@ fn shares(mesh: &BodyMesh) -> Vec<f64> {
 }
 
 /// ∫ ρ φ_i φ_j of these nodes, or the lumped mass: the upper triangle by columns, kg.
-fn mass(density: &Density, system: &System, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
+fn mass(body: &Body, system: &System, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
     let mesh = &system.shape.mesh;
     let mut place = vec![usize::MAX; mesh.vertices().len()];
     for (i, &node) in nodes.iter().enumerate() {
@@ -94,9 +78,9 @@ fn mass(density: &Density, system: &System, nodes: &[usize]) -> Vec<Vec<(usize, 
     };
     let (shares, lumped) = (shares(mesh), lumped_mass_shares(mesh.element()));
     for (number, (corners, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
-        let mass = density.of_material * density.factors.get(number).copied().unwrap_or(1.0) * volume;
+        let mass = body.material.density * body.density_factors.get(number).copied().unwrap_or(1.0) * volume;
         for (a, &row) in corners.iter().enumerate() {
-            if density.is_lumped {
+            if body.lumped_mass {
                 add(place[row], place[row], mass * lumped[a]);
                 continue;
             }

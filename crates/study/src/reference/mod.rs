@@ -4,7 +4,6 @@ mod equations;
 mod extrapolation;
 mod ldl;
 mod mass;
-mod prescribed_motion;
 
 pub use equations::{Equations, Phase, Scratch};
 pub use extrapolation::{Reference, SELF_CHECK, reference};

@@ -3,7 +3,7 @@ use std::path::Path;
 use fem_scene::{body, parse};
 use nalgebra::Vector3;
 
-use super::prescribed_motion::kinematics;
+use super::equations::kinematics;
 use super::*;
 
 fn equations(text: &str) -> Equations {

@@ -1,32 +1,12 @@
 //! The charts of a report.
 
-use super::{Report, adaptive, space_charts};
 use crate::report::text::{number, seconds, step};
 use crate::runs::convergence_order::asymptotic;
 use crate::runs::costs::{self, KINDS};
 use crate::runs::row::Row;
 use crate::studies::scene::{SceneStudy, competing_error};
-use fem_chart::{Axis, Bar, Chart, Dot, Guide, Picture, Series, bars};
+use fem_chart::{Axis, Bar, Chart, Dot, Guide, Picture, SHAPES, Series, bars};
 use fem_model::Integrator;
-
-/// Charts that are written as files.
-pub fn files(report: &Report) -> Vec<(String, Picture)> {
-    let mut files = Vec::new();
-    for (place, study) in report.scenes.iter().enumerate() {
-        let picture = error_against_time(study);
-        if place == 0 {
-            files.push(("error-vs-time.svg".to_owned(), picture.clone()));
-        }
-        files.push((format!("error-vs-time-{}.svg", study.name), picture));
-        files.push((format!("convergence-in-dt-{}.svg", study.name), convergence(study)));
-        files.extend(adaptive::chart(study).map(|chart| (format!("adaptive-{}.svg", study.name), chart)));
-    }
-    files.push(("orders-in-dt.svg".to_owned(), convergence(&report.orders)));
-    files.push(("orders-in-h.svg".to_owned(), space_charts::in_space(&report.space)));
-    files.push(("triangles-error-vs-time.svg".to_owned(), space_charts::time_in_plane(&report.space)));
-    files.push(("locking.svg".to_owned(), space_charts::locking(&report.space)));
-    files
-}
 
 /// Frames in a second of motion.
 const FRAMES: f64 = 60.0;
@@ -193,4 +173,31 @@ pub fn costs_of_a_step(study: &SceneStudy) -> Option<Picture> {
     let label = format!("{}: costs of a step", study.name);
     let percent = |share: f64, whole: f64| format!("{:.0} %", 100.0 * share / whole);
     (!all.is_empty()).then(|| bars(&label, &kinds, &all, percent))
+}
+
+/// The completed runs of adaptive steps.
+pub(super) fn adaptive_rows(study: &SceneStudy) -> impl Iterator<Item = &Row> {
+    study.rows.iter().filter(|row| row.config.group == "adaptive" && row.is_done() && row.errors.estimated.is_some())
+}
+
+/// True over estimated errors; `None` without such runs.
+pub(super) fn adaptive(study: &SceneStudy) -> Option<Picture> {
+    let label = format!("{}: estimated and true error of adaptive steps", study.name);
+    let (x, y) = ("sum of estimated errors / body length", "largest true error / body length");
+    let mut chart = Chart::new(label, Axis::log(x), Axis::log(y));
+    for (number, method) in adaptive_methods(study).into_iter().enumerate() {
+        let dot = |row: &Row| Some(Dot::new(row.errors.estimated?, row.errors.time_linf?, row.config.method.clone()));
+        let dots = adaptive_rows(study).filter(|row| row.config.integrator == method).filter_map(dot);
+        chart.series.push(Series::joined(method.name().replace('_', " "), (number, number % SHAPES), dots));
+    }
+    let through = chart.series.first()?.dots.first().map(|dot| (dot.x, dot.x))?;
+    chart.guides.push(Guide::Slope { through, slope: 1.0, name: "equal".to_owned() });
+    Some(chart.draw())
+}
+
+/// The integrators with such runs.
+fn adaptive_methods(study: &SceneStudy) -> Vec<Integrator> {
+    let mut methods: Vec<Integrator> = adaptive_rows(study).map(|row| row.config.integrator).collect();
+    methods.dedup();
+    methods
 }

@@ -1,33 +1,31 @@
 //! The report "error against run time": studies of scenes as tables, charts and a page.
 
-mod adaptive;
 mod answer;
 mod charts;
-mod notes;
 mod scene_page;
-mod space_charts;
-mod space_page;
+mod space;
 pub(crate) mod text;
 
 use std::io;
 use std::path::Path;
 
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::machine::Machine;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
-use crate::runs::row::Row;
-use crate::runs::table;
+use crate::runs::row::{self, Row};
 use crate::space::{locking, manufactured};
 use crate::studies::Settings;
 use crate::studies::scene::{self, Question, SceneStudy};
-use crate::studies::space::{self, SpaceOrders, SpaceStudy};
-use crate::study::{Case, Column, Finished, Found, Study, Table};
-use fem_chart::page::page;
+use crate::studies::space::{SpaceOrders, SpaceStudy, study as study_space};
+use crate::study::{Case, Column, Finished, Found, Problem, Result, Study, Table};
+use fem_chart::Picture;
+use fem_chart::page::{page, table};
 use fem_mesh::write::save_bytes;
 use fem_scene::{Scene, parse};
+use text::number;
 
 /// The results of a report.
 #[derive(Clone, Debug)]
@@ -94,13 +92,13 @@ impl Study for ErrorStudy<'_> {
     }
 
     fn cases(&self) -> Vec<Case<'_, Studied>> {
-        let failed = |problem| Studied::Failed(problem);
+        let failed = |problem: Problem| Studied::Failed(problem.to_string());
         let orders = move || {
-            let small = parse(ORDERS, Path::new("orders.toml")).map_err(|error| error.to_string());
+            let small = parse(ORDERS, Path::new("orders.toml")).map_err(Problem::from);
             let found = small.and_then(|small| scene::study(&self.settings, &small, Question::Order));
             found.map_or_else(failed, Studied::Orders)
         };
-        let space = move || space::study(&self.settings).map_or_else(failed, Studied::Space);
+        let space = move || study_space(&self.settings).map_or_else(failed, Studied::Space);
         let of_scene = |of: &'_ Scene| {
             let found = scene::study(&self.settings, of, Question::Choice);
             found.map_or_else(|problem| Studied::Failed(format!("{}: {problem}", of.name)), Studied::Scene)
@@ -192,33 +190,80 @@ fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
     charts::methods(study).iter().filter_map(|method| observe(method)).collect()
 }
 
-fn write(report: &Report, out: &Path) -> Result<(), String> {
-    let write =
-        |name: &str, text: String| save_bytes(&out.join(name), text.as_bytes()).map_err(|error| error.to_string());
-    let rows = report.rows();
-    let csv = |text: Result<String, csv::Error>| text.map_err(|error| error.to_string());
-    write("runs.csv", csv(table::csv(&rows, &report.machine))?)?;
-    write("orders.csv", csv(orders_csv(report))?)?;
-    write("locking.csv", csv(locking_csv(report))?)?;
-    write("runs.json", serde_json::to_string_pretty(&as_json(report)).map_err(|error| error.to_string())? + "\n")?;
-    write("README.txt", notes::README.to_owned())?;
-    for (name, picture) in charts::files(report) {
+fn write(report: &Report, out: &Path) -> Result<()> {
+    let write = |name: &str, text: String| save_bytes(&out.join(name), text.as_bytes());
+    write("runs.csv", row::csv(&report.rows(), &report.machine)?)?;
+    write("orders.csv", orders_csv(report)?)?;
+    write("locking.csv", locking_csv(report)?)?;
+    write("runs.json", serde_json::to_string_pretty(&as_json(report))? + "\n")?;
+    write("README.txt", README.to_owned())?;
+    for (name, picture) in pictures(report) {
         write(&name, picture.standalone())?;
     }
-    write("report.html", page("Error against run time", body(report)))
+    Ok(write("report.html", page("Error against run time", body(report)))?)
+}
+
+/// Charts that are written as files.
+fn pictures(report: &Report) -> Vec<(String, Picture)> {
+    let mut files = Vec::new();
+    for (place, study) in report.scenes.iter().enumerate() {
+        let picture = charts::error_against_time(study);
+        if place == 0 {
+            files.push(("error-vs-time.svg".to_owned(), picture.clone()));
+        }
+        files.push((format!("error-vs-time-{}.svg", study.name), picture));
+        files.push((format!("convergence-in-dt-{}.svg", study.name), charts::convergence(study)));
+        files.extend(charts::adaptive(study).map(|chart| (format!("adaptive-{}.svg", study.name), chart)));
+    }
+    files.push(("orders-in-dt.svg".to_owned(), charts::convergence(&report.orders)));
+    files.push(("orders-in-h.svg".to_owned(), space::in_space(&report.space)));
+    files.push(("triangles-error-vs-time.svg".to_owned(), space::time_in_plane(&report.space)));
+    files.push(("locking.svg".to_owned(), space::locking_chart(&report.space)));
+    files
 }
 
 /// The body of the page.
 fn body(report: &Report) -> Markup {
     html! {
-        (notes::head(report))
+        (head(report))
         (answer::html(report))
         @for study in &report.scenes { (scene_page::html(study)) }
-        (space_page::orders(report))
-        (space_page::space(&report.space))
-        (notes::method(report))
+        (space::orders(report))
+        (space::space(&report.space))
+        (method(report))
     }
 }
+
+/// The head of the page.
+fn head(report: &Report) -> Markup {
+    html! {
+        h1 { "Error against run time" }
+        p class="soft" {
+            (report.machine.line()) "."
+            @if report.is_quick { " This is the short version with small meshes and few steps; its times are not representative." }
+            @if report.machine.is_busy() {
+                " Other processes used this machine: wall-clock times are too long, and processor times are more reliable."
+            }
+        } "\n"
+    }
+}
+
+/// The end of the page.
+fn method(report: &Report) -> Markup {
+    let references = std::iter::once(&report.orders).chain(&report.scenes).flat_map(|study| &study.references);
+    let row = |(file, (u, v), evaluations): &(String, (f64, f64), usize)| {
+        vec![file.clone(), number(Some(*u)), number(Some(*v)), evaluations.to_string()]
+    };
+    let rows: Vec<_> = references.map(row).collect();
+    html! {
+        (PreEscaped(include_str!("method.html")))
+        (table(&["reference in time", ">self-check", ">of velocities", ">force evaluations"], &rows))
+        (PreEscaped(include_str!("columns.html")))
+    }
+}
+
+/// The file that explains the folder without the page.
+const README: &str = include_str!("README.txt");
 
 fn orders_csv(report: &Report) -> Result<String, csv::Error> {
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
@@ -274,6 +319,6 @@ fn as_json(report: &Report) -> Value {
         "orders": report.observed().into_iter().map(order).collect::<Vec<_>>(),
         "locking": report.space.tip_deflections.iter().map(|bent| json!({
             "elements": bent.elements, "poisson": bent.poisson, "cells_per_metre": bent.cells, "tip_over_timoshenko": bent.ratio })).collect::<Vec<_>>(),
-        "runs": table::json(&report.rows()),
+        "runs": row::json(&report.rows()),
     })
 }

@@ -4,7 +4,7 @@ use fem_chart::page::{details, figure, table};
 use maud::{Markup, html};
 
 use super::text::{number, percent, seconds, step, trimmed};
-use super::{Observed, adaptive, charts, orders_in_time};
+use super::{Observed, charts, orders_in_time};
 use crate::runs::row::Row;
 use crate::studies::scene::{SceneStudy, competing_error};
 use crate::study::{Column, Table};
@@ -20,7 +20,7 @@ pub(super) fn html(study: &SceneStudy) -> Markup {
         h3 { "Pareto front" }
         (front(study))
         @if study.horizon > 0.0 { (motion(study)) }
-        (adaptive::html(study))
+        (adaptive(study))
         (mesh(study))
         h3 { "One choice at a time" }
         (variants(study))
@@ -165,4 +165,27 @@ fn runs<'a>(rows: impl Iterator<Item = &'a Row>) -> Markup {
         html! { @if row.is_done() { (row.standing) } @else { span class="wide" { (row.status) } } }
     };
     table_of_runs(rows, ("id", |row: &Row| row.config.id.clone()), Some(("standing", standing)))
+}
+
+/// The table and the chart.
+fn adaptive(study: &SceneStudy) -> Markup {
+    let Some(picture) = charts::adaptive(study) else { return html! {} };
+    let columns: [Column<&Row>; 7] = [
+        ("run", &|row| row.config.method.clone()),
+        (">steps", &|row| row.counters.accepted_steps.to_string()),
+        (">rejected", &|row| row.counters.rejected_steps.to_string()),
+        (">estimated error", &|row| number(row.errors.estimated)),
+        (">true error", &|row| number(row.errors.time_linf)),
+        (">true / estimated", &|row| {
+            number(row.errors.time_linf.zip(row.errors.estimated).map(|(error, estimated)| error / estimated))
+        }),
+        (">total", &|row| seconds(row.seconds())),
+    ];
+    let caption = "Estimates are those of the displacements of each step, added up; true errors are the largest distance from the reference at the \
+        end, in which errors of earlier steps have grown or swung back.";
+    html! {
+        h3 { "Adaptive steps" }
+        (figure(&picture, caption))
+        (Table::of("adaptive", &charts::adaptive_rows(study).collect::<Vec<_>>(), &columns).html())
+    }
 }

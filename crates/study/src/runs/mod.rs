@@ -3,9 +3,7 @@
 pub mod convergence_order;
 pub(crate) mod costs;
 pub(crate) mod measure;
-pub(crate) mod names;
 pub mod pareto;
 pub(crate) mod plan;
 pub mod row;
 pub(crate) mod states;
-pub(crate) mod table;

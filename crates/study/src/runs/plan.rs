@@ -7,7 +7,7 @@ use fem_model::{Integrator, Precision, Preconditioner, Projection, SolverKind};
 use fem_scene::tables::{AdaptiveTable, DragTable, NewmarkTable, NewtonTable, SolverTable, TimeTable};
 use fem_scene::{Pipeline, Scene};
 
-use super::names::solver_name;
+use crate::study::pairs;
 
 /// A run to be made.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,81 +43,130 @@ const ABOVE_THE_LIMIT: f64 = 3.6;
 
 /// Runs of the engine and of the course for a scene in motion. `scene` comes from [`base`].
 pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
-    let mut ladders = Vec::new();
-    let with = |integrator: Integrator| {
-        let mut scene = scene.clone();
-        scene.time.integrator = integrator;
-        scene
-    };
+    let mut plan = Plan { extent, ladders: Vec::new() };
     let halvings = if extent.is_quick { -1..=3 } else { -2..=5 };
     let implicit: Vec<usize> = halvings.map(|k: i32| scaled(extent.steps, k)).collect();
     let of_first_order = [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler];
     for integrator in of_first_order.into_iter().chain(Integrator::second_order_implicit()) {
-        ladders.push(ladder("method", integrator.facts().label, &with(integrator), &implicit, extent));
+        plan.add("method", integrator.facts().label, by(scene, integrator), &implicit);
     }
     let first = (extent.horizon * extent.fastest / ABOVE_THE_LIMIT).ceil().max(1.0) as usize;
     let most = if extent.is_quick { 3 } else { 5 };
     let explicit: Vec<usize> = (0..=most).map(|k| first << k).collect();
     for integrator in [Integrator::SemiImplicitEuler, Integrator::Rk2, Integrator::Rk4, Integrator::Verlet] {
-        ladders.push(ladder("method", integrator.facts().label, &with(integrator), &explicit, extent));
+        plan.add("method", integrator.facts().label, by(scene, integrator), &explicit);
     }
     // Growth by e^(ω² dt T/2) makes most of these runs fail: every other step size shows it.
     let sparse: Vec<usize> = explicit.iter().copied().step_by(2).collect();
-    ladders.push(ladder(
-        "method",
-        Integrator::ExplicitEuler.facts().label,
-        &with(Integrator::ExplicitEuler),
-        &sparse,
-        extent,
-    ));
-    ladders.extend(course(scene, extent));
-    ladders.extend(adaptive(scene, extent));
-    ladders.extend(variants(scene, extent));
-    ladders.extend(loose(scene, &implicit, extent));
-    ladders
+    let unstable = Integrator::ExplicitEuler;
+    plan.add("method", unstable.facts().label, by(scene, unstable), &sparse);
+    plan.add_course(scene);
+    plan.add_adaptive(scene);
+    plan.add_variants(scene);
+    plan.add_loose(scene, &implicit);
+    plan.ladders
 }
 
-/// Implicit methods as fast as errors of 1e-4 allow, in single precision with a loose tolerance; Newmark's method with its most accurate periods
-/// too, from just below its critical time step on.
-fn loose(scene: &Scene, implicit: &[usize], extent: Extent) -> Vec<Ladder> {
-    let mut scene = single(scene);
-    scene.newton = Some(NewtonTable { tolerance: Some(1e-4), ..newton(&scene) });
-    let stable = (extent.horizon * extent.fastest / (0.95 * 6f64.sqrt())).ceil().max(1.0) as usize;
-    let accurate = NewmarkTable { beta: Some(1.0 / 12.0), gamma: None };
-    let mut ladders = Vec::new();
-    for integrator in [Integrator::ImplicitEuler].into_iter().chain(Integrator::second_order_implicit()) {
-        scene.time.integrator = integrator;
-        ladders.push(ladder(
-            "precision",
-            &format!("{} in f32 to 1e-4", integrator.facts().label),
-            &scene,
-            implicit,
-            extent,
-        ));
+/// Ladders of a study.
+struct Plan {
+    extent: Extent,
+    ladders: Vec<Ladder>,
+}
+
+impl Plan {
+    /// Adds a run for each number of steps in the horizon.
+    fn add(&mut self, group: &'static str, method: impl Into<String>, scene: Scene, steps: &[usize]) {
+        let method = method.into();
+        let run = |&steps: &usize| {
+            let time = TimeTable { dt: Some(self.extent.horizon / steps as f64), ..scene.time.clone() };
+            PlannedRun { group, method: method.clone(), scene: Scene { time, ..scene.clone() }, steps }
+        };
+        self.ladders.push(steps.iter().map(run).collect());
     }
-    scene.time.integrator = Integrator::Newmark;
-    scene.newmark = Some(accurate);
-    let steps = [stable, 2 * stable, 4 * stable];
-    ladders.push(ladder("precision", "Newmark, β = 1/12, in f32 to 1e-4", &scene, &steps, extent));
-    ladders
+
+    /// The same body in the course's pipeline.
+    fn add_course(&mut self, scene: &Scene) {
+        let halvings: &[i32] = if self.extent.is_quick { &[0, 2] } else { &[-1, 0, 1, 2] };
+        let steps: Vec<_> = halvings.iter().map(|&k| scaled(self.extent.steps, k)).collect();
+        for integrator in [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler] {
+            let method = format!("course: {}", integrator.facts().label);
+            self.add("method", method, by(&in_course(scene), integrator), &steps);
+        }
+    }
+
+    /// Adaptive steps within the scene's own, to several tolerances.
+    fn add_adaptive(&mut self, scene: &Scene) {
+        for (integrator, tolerance) in pairs(Integrator::second_order_implicit(), [1e-3, 1e-4, 1e-5]) {
+            let mut scene = by(scene, integrator);
+            scene.time.adaptive = Some(AdaptiveTable { tolerance });
+            let method = format!("{}, adaptive to {tolerance:e}", integrator.facts().label);
+            self.add("adaptive", method, scene, &[self.extent.steps]);
+        }
+    }
+
+    /// Variants of implicit Euler; precision of other integrators too.
+    fn add_variants(&mut self, scene: &Scene) {
+        let Extent { is_quick, horizon, steps, fastest } = self.extent;
+        let base = by(scene, Integrator::ImplicitEuler);
+        let finer = scaled(steps, 2);
+        let tolerances: &[f64] = if is_quick { &[1e-3, 1e-12] } else { &[1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12] };
+        for &tolerance in tolerances {
+            self.add("tolerance", format!("implicit Euler to {tolerance:e}"), to(&base, tolerance), &[finer]);
+        }
+        for solver in SOLVERS {
+            let scene = solved_by(&base, solver);
+            self.add("solver", format!("implicit Euler by {}", solver_name(&scene)), scene, &[finer]);
+        }
+        for (projection, word) in [(Projection::Always, "always"), (Projection::Never, "never")] {
+            let newton = Some(NewtonTable { projection: Some(projection), ..newton(&base) });
+            let scene = Scene { newton, ..base.clone() };
+            self.add("projection", format!("implicit Euler, projected {word}"), scene, &[finer]);
+        }
+        let explicit = (horizon * fastest / ABOVE_THE_LIMIT).ceil() as usize;
+        for (integrator, steps) in [
+            (Integrator::ImplicitEuler, finer),
+            (Integrator::LinearlyImplicitEuler, finer),
+            (Integrator::Verlet, 4 * explicit),
+        ] {
+            let method = format!("{} in f32", integrator.facts().label);
+            self.add("precision", method, by(&single(scene), integrator), &[steps]);
+        }
+        for (cells, scene) in meshes(&base) {
+            let method = format!("{}, {cells} cells per metre", Integrator::ImplicitEuler.facts().label);
+            self.add("mesh", method, scene, &[steps, finer]);
+        }
+    }
+
+    /// Implicit methods as fast as errors of 1e-4 allow, in single precision with a loose tolerance; Newmark's method with its most accurate
+    /// periods too, from just below its critical time step on.
+    fn add_loose(&mut self, scene: &Scene, implicit: &[usize]) {
+        let scene = to(&single(scene), 1e-4);
+        for integrator in [Integrator::ImplicitEuler].into_iter().chain(Integrator::second_order_implicit()) {
+            let method = format!("{} in f32 to 1e-4", integrator.facts().label);
+            self.add("precision", method, by(&scene, integrator), implicit);
+        }
+        let stable = (self.extent.horizon * self.extent.fastest / (0.95 * 6f64.sqrt())).ceil().max(1.0) as usize;
+        let newmark = Some(NewmarkTable { beta: Some(1.0 / 12.0), gamma: None });
+        let accurate = Scene { newmark, ..by(&scene, Integrator::Newmark) };
+        let steps = [stable, 2 * stable, 4 * stable];
+        self.add("precision", "Newmark, β = 1/12, in f32 to 1e-4", accurate, &steps);
+    }
 }
 
-/// Adaptive steps within the scene's own, to several tolerances.
-fn adaptive(scene: &Scene, extent: Extent) -> Vec<Ladder> {
-    let run = |(integrator, tolerance): (Integrator, f64)| {
-        let mut scene = scene.clone();
-        scene.time.integrator = integrator;
-        scene.time.adaptive = Some(AdaptiveTable { tolerance });
-        ladder(
-            "adaptive",
-            &format!("{}, adaptive to {tolerance:e}", integrator.facts().label),
-            &scene,
-            &[extent.steps],
-            extent,
-        )
-    };
-    let tolerances = [1e-3, 1e-4, 1e-5];
-    Integrator::second_order_implicit().flat_map(|of| tolerances.map(|tolerance| run((of, tolerance)))).collect()
+/// The scene with another integrator.
+fn by(scene: &Scene, integrator: Integrator) -> Scene {
+    Scene { time: TimeTable { integrator, ..scene.time.clone() }, ..scene.clone() }
+}
+
+/// The scene with another tolerance of Newton's method.
+fn to(scene: &Scene, tolerance: f64) -> Scene {
+    Scene { newton: Some(NewtonTable { tolerance: Some(tolerance), ..newton(scene) }), ..scene.clone() }
+}
+
+/// The scene with another linear solver.
+fn solved_by(scene: &Scene, (kind, preconditioner): (SolverKind, Option<Preconditioner>)) -> Scene {
+    let solver = Some(SolverTable { kind, tolerance: None, preconditioner, precision: None });
+    Scene { solver, ..scene.clone() }
 }
 
 /// The scene in the course's pipeline, with the spring of its drag in the stiffness, as the engine has it: rows compare methods, and the
@@ -127,68 +176,14 @@ fn in_course(scene: &Scene) -> Scene {
     Scene { pipeline: Pipeline::Course, newton: None, solver: None, drag, ..scene.clone() }
 }
 
-/// The same body in the course's pipeline.
-fn course(scene: &Scene, extent: Extent) -> Vec<Ladder> {
-    let mut scene = in_course(scene);
-    let halvings: &[i32] = if extent.is_quick { &[0, 2] } else { &[-1, 0, 1, 2] };
-    let steps: Vec<_> = halvings.iter().map(|&k| scaled(extent.steps, k)).collect();
-    let of = |integrator: Integrator| {
-        scene.time.integrator = integrator;
-        ladder("method", &format!("course: {}", integrator.facts().label), &scene, &steps, extent)
-    };
-    [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler].map(of).into()
-}
-
-/// Variants of implicit Euler; precision of other integrators too.
-fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
-    let mut base = scene.clone();
-    base.time.integrator = Integrator::ImplicitEuler;
-    let at = [scaled(extent.steps, 2)];
-    let mut ladders = Vec::new();
-    let tolerances: &[f64] = if extent.is_quick { &[1e-3, 1e-12] } else { &[1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12] };
-    for &tolerance in tolerances {
-        let mut scene = base.clone();
-        scene.newton = Some(NewtonTable { tolerance: Some(tolerance), ..newton(&scene) });
-        ladders.push(ladder("tolerance", &format!("implicit Euler to {tolerance:e}"), &scene, &at, extent));
-    }
-    for (kind, preconditioner) in SOLVERS {
-        let mut scene = base.clone();
-        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner, precision: None });
-        let method = format!("implicit Euler by {}", solver_name(&scene));
-        ladders.push(ladder("solver", &method, &scene, &at, extent));
-    }
-    for (projection, word) in [(Projection::Always, "always"), (Projection::Never, "never")] {
-        let mut scene = base.clone();
-        scene.newton = Some(NewtonTable { projection: Some(projection), ..newton(&scene) });
-        ladders.push(ladder("projection", &format!("implicit Euler, projected {word}"), &scene, &at, extent));
-    }
-    let explicit = (extent.horizon * extent.fastest / ABOVE_THE_LIMIT).ceil() as usize;
-    for (integrator, steps) in [
-        (Integrator::ImplicitEuler, scaled(extent.steps, 2)),
-        (Integrator::LinearlyImplicitEuler, scaled(extent.steps, 2)),
-        (Integrator::Verlet, 4 * explicit),
-    ] {
-        let mut scene = single(scene);
-        scene.time.integrator = integrator;
-        ladders.push(ladder("precision", &format!("{} in f32", integrator.facts().label), &scene, &[steps], extent));
-    }
-    ladders.extend(meshes(scene).into_iter().map(|scene| {
-        let cells = scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit);
-        let method = format!("{}, {cells} cells per metre", scene.time.integrator.facts().label);
-        ladder("mesh", &method, &scene, &[extent.steps, at[0]], extent)
-    }));
-    ladders
-}
-
-/// A box with half and with twice as many cells per edge, with implicit Euler.
-fn meshes(scene: &Scene) -> Vec<Scene> {
+/// A box with half and with twice as many cells per metre, with their number.
+fn meshes(scene: &Scene) -> Vec<(usize, Scene)> {
     let with = |cells: usize| {
         let mut scene = scene.clone();
-        scene.time.integrator = Integrator::ImplicitEuler;
         if let Some(cuboid) = &mut scene.mesh.cuboid {
             cuboid.cells_per_unit = cells;
         }
-        scene
+        (cells, scene)
     };
     levels(scene).map_or(Vec::new(), |[half, _, twice]| vec![with(half), with(twice)])
 }
@@ -236,47 +231,36 @@ const FIRST: [(Integrator, usize); 12] = [
 
 /// Ladders in the asymptotic range of each integrator.
 pub fn orders(scene: &Scene, extent: Extent) -> Vec<Ladder> {
-    let halvings = if extent.is_quick { 3 } else { 4 };
-    let steps = |first: usize| (0..halvings).map(|k| first << k).collect::<Vec<_>>();
-    let mut ladders = Vec::new();
+    let mut plan = Plan { extent, ladders: Vec::new() };
     for (integrator, first) in FIRST {
-        let mut scene = scene.clone();
-        scene.time.integrator = integrator;
-        ladders.push(ladder("order", integrator.facts().label, &scene, &steps(first), extent));
+        let steps: Vec<usize> = (0..if extent.is_quick { 3 } else { 4 }).map(|k| first << k).collect();
+        let (label, scene) = (integrator.facts().label, by(scene, integrator));
+        plan.add("order", label, scene.clone(), &steps);
         if matches!(integrator, Integrator::LinearlyImplicitEuler | Integrator::ImplicitEuler) {
-            let method = format!("course: {}", integrator.facts().label);
-            ladders.push(ladder("order", &method, &in_course(&scene), &steps(first), extent));
+            plan.add("order", format!("course: {label}"), in_course(&scene), &steps);
         }
     }
-    ladders
+    plan.ladders
 }
 
 /// Runs of a static scene: solvers, precision and meshes.
 pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
-    let run = |group, method: String, scene: &Scene| {
-        vec![PlannedRun { group, method, scene: scene.clone(), steps: load_steps }]
-    };
-    let mut ladders = vec![run("method", "static".to_owned(), scene)];
-    for (kind, preconditioner) in SOLVERS {
-        let mut scene = scene.clone();
-        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner, precision: None });
-        ladders.push(run("solver", format!("static by {}", solver_name(&scene)), &scene));
+    let run = |group, method: String, scene: Scene| vec![PlannedRun { group, method, scene, steps: load_steps }];
+    let mut ladders = vec![run("method", "static".to_owned(), scene.clone())];
+    for solver in SOLVERS {
+        let scene = solved_by(scene, solver);
+        ladders.push(run("solver", format!("static by {}", solver_name(&scene)), scene));
     }
-    ladders.push(run("precision", "static in f32".to_owned(), &single(scene)));
-    for scene in meshes(scene) {
-        let scene = Scene { time: TimeTable { integrator: Integrator::Static, ..scene.time }, ..scene };
-        let cells = scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit);
-        ladders.push(run("mesh", format!("static, {cells} cells per metre"), &scene));
-    }
+    ladders.push(run("precision", "static in f32".to_owned(), single(scene)));
+    let meshes = meshes(scene).into_iter();
+    ladders.extend(meshes.map(|(cells, scene)| run("mesh", format!("static, {cells} cells per metre"), scene)));
     ladders
 }
 
 /// The scene in single precision, with a tolerance above round-off.
 fn single(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    scene.time.precision = Precision::F32;
-    scene.newton = Some(NewtonTable { tolerance: Some(1e-6), ..newton(&scene) });
-    scene
+    let time = TimeTable { precision: Precision::F32, ..scene.time.clone() };
+    to(&Scene { time, ..scene.clone() }, 1e-6)
 }
 
 /// The scene for the engine, without its display mesh, and with a coarse mesh for the short study.
@@ -297,13 +281,12 @@ fn scaled(steps: usize, k: i32) -> usize {
     (steps as f64 * 2f64.powi(k)).round().max(1.0) as usize
 }
 
-fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], extent: Extent) -> Ladder {
-    let run = |&steps: &usize| {
-        let mut scene = scene.clone();
-        scene.time.dt = Some(extent.horizon / steps as f64);
-        PlannedRun { group, method: method.to_owned(), scene, steps }
-    };
-    steps.iter().map(run).collect()
+/// The solver of a scene, or `automatic`.
+pub fn solver_name(scene: &Scene) -> String {
+    let Some(solver) = &scene.solver else { return "automatic".to_owned() };
+    let preconditioner =
+        solver.preconditioner.map_or(String::new(), |preconditioner| format!(" {}", preconditioner.name()));
+    format!("{}{preconditioner}", solver.kind.name())
 }
 
 fn newton(scene: &Scene) -> NewtonTable {

@@ -1,8 +1,12 @@
-//! A row of a study: configuration, errors, times and counters of a run. The columns of `runs.csv`.
+//! A row of a study: configuration, errors, times and counters of a run. The columns of `runs.csv`, and rows as CSV and as JSON.
 
 use fem_model::Integrator;
 use fem_model::simulation::Counters;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value as Json};
+
+use crate::machine::Machine;
+use crate::study::csv_text;
 
 /// The configuration of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,35 +84,6 @@ pub struct Row {
     pub reference_state: String,
 }
 
-/// The value of a cell.
-#[derive(Clone, Debug, PartialEq)]
-pub enum CellValue {
-    /// Text.
-    Text(String),
-    /// A whole number, or an empty cell.
-    Count(Option<usize>),
-    /// A number, or an empty cell.
-    Number(Option<f64>),
-}
-
-impl From<&str> for CellValue {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
-
-impl From<usize> for CellValue {
-    fn from(count: usize) -> Self {
-        Self::Count(Some(count))
-    }
-}
-
-impl From<Option<f64>> for CellValue {
-    fn from(number: Option<f64>) -> Self {
-        Self::Number(number)
-    }
-}
-
 impl Row {
     /// A completed row without results.
     pub fn new(config: Configuration, state: String, reference_state: String) -> Self {
@@ -136,8 +111,8 @@ impl Row {
     }
 }
 
-/// A column: its name and its value.
-type Column = (&'static str, fn(&Row) -> CellValue);
+/// A column: its name and its value; a missing value, an infinity and a NaN are null.
+type Column = (&'static str, fn(&Row) -> Json);
 
 /// All columns except those of the machine.
 pub const COLUMNS: [Column; 52] = [
@@ -157,7 +132,7 @@ pub const COLUMNS: [Column; 52] = [
     ("dt", |row| Some(row.config.dt).into()),
     ("steps", |row| row.config.steps.into()),
     ("tol", |row| row.config.tolerance.into()),
-    ("max_it", |row| CellValue::Count(row.config.max_iterations)),
+    ("max_it", |row| row.config.max_iterations.into()),
     ("precision", |row| row.config.precision.as_str().into()),
     ("setup_ms", |row| row.times.setup_ms.into()),
     ("step_ms_med", |row| row.times.step_ms[0].into()),
@@ -194,3 +169,83 @@ pub const COLUMNS: [Column; 52] = [
     ("state", |row| row.state.as_str().into()),
     ("reference_state", |row| row.reference_state.as_str().into()),
 ];
+
+/// All rows; the first line names the columns, and the last columns of every row describe the machine.
+pub fn csv(rows: &[Row], machine: &Machine) -> Result<String, csv::Error> {
+    let machine = machine_cells(machine);
+    let names: Vec<&str> = COLUMNS.iter().map(|column| column.0).chain(machine.iter().map(|cell| cell.0)).collect();
+    let cells = |row: &Row| {
+        let own = COLUMNS.iter().map(|(_, value)| written(value(row)));
+        own.chain(machine.iter().map(|cell| cell.1.clone())).collect::<Vec<_>>()
+    };
+    csv_text(&names, rows.iter().map(cells))
+}
+
+/// One object for each row; a missing value is null.
+pub fn json(rows: &[Row]) -> Json {
+    let object = |row: &Row| {
+        let entries = COLUMNS.iter().map(|(name, value)| ((*name).to_owned(), value(row)));
+        Json::Object(entries.collect::<Map<_, _>>())
+    };
+    Json::Array(rows.iter().map(object).collect())
+}
+
+fn machine_cells(machine: &Machine) -> [(&'static str, String); 5] {
+    let Machine { cpu, threads, flags, commit, date, .. } = machine;
+    [
+        ("threads", threads.to_string()),
+        ("commit", commit.clone()),
+        ("cpu", cpu.clone()),
+        ("flags", flags.clone()),
+        ("date", date.clone()),
+    ]
+}
+
+fn written(value: Json) -> String {
+    match value {
+        Json::String(text) => text,
+        Json::Number(number) if number.is_f64() => number.as_f64().map_or(String::new(), |x| format!("{x:e}")),
+        Json::Number(count) => count.to_string(),
+        _ => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_model::Integrator;
+
+    use super::*;
+
+    #[test]
+    fn every_line_has_every_column_and_missing_values_are_empty() {
+        let text = String::new;
+        let config = Configuration {
+            id: text(),
+            scene: text(),
+            group: text(),
+            method: text(),
+            pipeline: text(),
+            mesh_hash: text(),
+            nodes: 4,
+            elements: 1,
+            young: None,
+            poisson: None,
+            integrator: Integrator::Static,
+            projection: text(),
+            solver: text(),
+            dt: 1.0,
+            steps: 1,
+            tolerance: None,
+            max_iterations: None,
+            precision: text(),
+        };
+        let row = Row::new(config, text(), text());
+        let machine = Machine::this(std::path::Path::new("."));
+        let table = csv(std::slice::from_ref(&row), &machine).unwrap();
+        let mut reader = csv::Reader::from_reader(table.as_bytes());
+        let column = reader.headers().unwrap().iter().position(|name| name == "err_time_L2").unwrap();
+        let cells = reader.records().next().unwrap().unwrap();
+        assert_eq!((cells.len(), &cells[column]), (reader.headers().unwrap().len(), ""));
+        assert_eq!(json(&[row])[0]["err_time_L2"], Json::Null);
+    }
+}

@@ -4,14 +4,13 @@
 //! What Is a Good Linear Finite Element? (2002), §3. Iterative solvers need as many more iterations as the root of the condition number grows,
 //! and explicit methods as much shorter steps as the root of the largest eigenvalue does.
 
-use std::path::Path;
-
 use fem_engine::simulator::Simulator;
 use fem_engine::simulator::double::{Solver, System, add_stiffness, add_stiffness_times};
 use fem_engine::solvers::SolverChoice;
 use fem_engine::vector::dot;
 use fem_mesh::TetrahedralMesh;
-use fem_scene::{body_of, parse};
+use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Preconditioner, Refusal, Region, Selector};
+use fem_model::{Precision, SolverKind, SolverSettings};
 use nalgebra::DMatrix;
 
 /// Relative change within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
@@ -59,11 +58,8 @@ pub fn conditioning(mesh: &TetrahedralMesh) -> Result<Conditioning, String> {
     };
     let sizes = [0, 1, 2].map(|axis| bounds(axis)[1] - bounds(axis)[0]);
     let axis = (0..3).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b])).unwrap_or(0);
-    let text = scene(["x", "y", "z"][axis], FIXED * sizes[axis]);
-    let scene = parse(&text, Path::new("conditioning")).map_err(|error| error.to_string())?;
-    let body = body_of(&scene, mesh.clone(), Path::new("")).map_err(|error| error.to_string())?;
-    let simulator =
-        Simulator::<f64>::new(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())?;
+    let simulator = clamped(mesh, [Axis::X, Axis::Y, Axis::Z][axis], FIXED * sizes[axis]);
+    let simulator = simulator.map_err(|refusal| format!("conditioning: {refusal}"))?;
     let system = simulator.system();
     let undeformed = vec![[0.0; 3]; system.nodes()];
     let times_stiffness = |x: &[[f64; 3]], y: &mut [[f64; 3]]| add_stiffness_times(system, &undeformed, x, y);
@@ -77,12 +73,12 @@ pub fn conditioning(mesh: &TetrahedralMesh) -> Result<Conditioning, String> {
 }
 
 /// A body of Young's modulus 1 Pa, clamped within a distance (m) of its lowest end along an axis.
-fn scene(axis: &str, below: f64) -> String {
-    format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"linear\"\n\
-         young = 1.0\npoisson = 0.3\ndensity = 1.0\n[fixed]\nplane = {{ axis = \"{axis}\", below = {below:?} }}\n[time]\ndt = 1.0\n\
-         integrator = \"implicit_euler\"\n[solver]\nkind = \"cholesky\"\n"
-    )
+fn clamped(mesh: &TetrahedralMesh, axis: Axis, below: f64) -> Result<Simulator<f64>, Refusal> {
+    let (kind, preconditioner, precision) = (SolverKind::Cholesky, Preconditioner::default(), Precision::default());
+    let solver = Some(SolverSettings { kind, tolerance: None, preconditioner, precision });
+    let body = Body::new(mesh.clone(), Material::new(Law::Linear(Elastic::new(1.0, 0.3)), 1.0))?;
+    let body = body.fix(&Selector::Region(Region::Plane { axis, below }))?;
+    Simulator::new(body, &Method { solver, ..Method::new(Integrator::ImplicitEuler, 1.0) })
 }
 
 /// The largest eigenvalue of a positive definite operator on the free nodes, which `apply` adds to zero, by Lanczos's method: Golub and Van Loan,

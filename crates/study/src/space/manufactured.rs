@@ -5,22 +5,24 @@
 //! verification by the method of manufactured solutions", Journal of Fluids Engineering 124, 2002.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
-use nalgebra::{DVector, Vector3};
-
-use crate::space::points::points;
 use fem_engine::forces::dead_load::DeadLoad;
 use fem_engine::materials::AnyLaw;
 use fem_engine::numbering::Numbering;
 use fem_engine::simulator::{Simulator, double};
 use fem_engine::tensor::{Tensor, from_fn};
+use fem_mesh::{Pattern, box_mesh, rectangle_mesh};
 use fem_model::element::Element;
 use fem_model::simulation::{Counters, Simulation};
-use fem_model::{Body, BodyMesh};
+use fem_model::{
+    Body, BodyMesh, Elastic, Integrator, Law, Material, Method, NeoHookean, NewtonSettings, Precision, Preconditioner,
+    Selector, SolverKind, SolverSettings,
+};
 use fem_output::StressError;
-use fem_scene::tables::FixedTable;
-use fem_scene::{Scene, body, parse};
+use nalgebra::{DVector, Vector3};
+
+use crate::space::points::points;
+use crate::study::Result;
 
 /// a, m: large enough that the neo-Hookean law is far from linear. The third belongs to the cube.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
@@ -35,7 +37,7 @@ pub fn label(element: &Element) -> String {
     if element.order == 1 { format!("linear {}", element.name) } else { element.name.to_owned() }
 }
 
-/// The end of a scene's name that tells its elements; empty for linear tetrahedra.
+/// The end of a case's name that tells its elements; empty for linear tetrahedra.
 pub fn ending(element: &Element) -> &'static str {
     match (element.dimension, element.order) {
         (2, 1) => "-triangles",
@@ -48,8 +50,10 @@ pub fn ending(element: &Element) -> &'static str {
 /// The discrete solution on one mesh.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The scene.
-    pub scene: Scene,
+    /// The name of law and elements.
+    pub name: String,
+    /// The material.
+    pub material: Material,
     /// The mesh.
     pub mesh: BodyMesh,
     /// Positions of all nodes, m.
@@ -129,17 +133,16 @@ impl Exact {
 }
 
 /// Solves on a mesh of `cells` cells in each direction.
-pub fn solve(model: &str, element: &Element, cells: usize) -> Result<Solved, String> {
-    let (scene, body) = fixed_body(model, element, cells)?;
+pub fn solve(model: &str, element: &Element, cells: usize) -> Result<Solved> {
+    let body = fixed_body(model, element, cells)?;
     let exact = Exact { dimensions: element.dimension };
-    let mesh = body.shape.mesh.clone();
+    let (mesh, material) = (body.shape.mesh.clone(), body.material);
     let lacks = "a body of springs has no stress";
-    let load = nodal_load(&AnyLaw::new(&scene.material.value()).ok_or(lacks)?, &mesh, exact);
+    let load = nodal_load(&AnyLaw::new(&material).ok_or(lacks)?, &mesh, exact);
     let in_order = |numbering: &Numbering| numbering.mesh_node.iter().map(|&node| load[node as usize]).collect();
-    let simulation = Simulator::<f64>::with_forces(body, &scene.method(), &|numbering| {
+    let mut simulation = Simulator::<f64>::with_forces(body, &method(), &|numbering| {
         vec![Box::new(DeadLoad::new(in_order(numbering)))]
-    });
-    let mut simulation = simulation.map_err(|error| error.to_string())?;
+    })?;
     let start = std::time::Instant::now();
     simulation.step().map_err(|failure| format!("no equilibrium: {failure}"))?;
     let seconds = start.elapsed().as_secs_f64();
@@ -147,32 +150,35 @@ pub fn solve(model: &str, element: &Element, cells: usize) -> Result<Solved, Str
     let (l2, h1) = errors(&mesh, &u, exact);
     let q = DVector::from_fn(3 * u.len(), |i, _| mesh.vertices()[i / 3][i % 3] + u[i / 3][i % 3]);
     let stress_error = StressError::of(&simulation);
-    Ok(Solved { scene, mesh, q, stress_error, l2, h1, counters: simulation.counters(), seconds })
+    let name = format!("manufactured-{}{}", material.law.name().replace('_', "-"), ending(element));
+    Ok(Solved { name, material, mesh, q, stress_error, l2, h1, counters: simulation.counters(), seconds })
+}
+
+/// Equilibrium to round-off, by a direct solver.
+fn method() -> Method {
+    let (kind, preconditioner, precision) = (SolverKind::Cholesky, Preconditioner::default(), Precision::default());
+    Method {
+        newton: NewtonSettings { max_iterations: Some(50), tolerance: Some(1e-13), ..NewtonSettings::default() },
+        solver: Some(SolverSettings { kind, tolerance: None, preconditioner, precision }),
+        ..Method::new(Integrator::Static, 1.0)
+    }
 }
 
 /// The unit cube or square with fixed sides.
-fn fixed_body(model: &str, element: &Element, cells: usize) -> Result<(Scene, Body), String> {
-    let moduli = match model {
-        "neo_hookean" => "model = \"neo_hookean\"\nC = 1e4\nD = 3e4",
-        _ => "model = \"linear\"\nyoung = 1e5\npoisson = 0.3",
+fn fixed_body(model: &str, element: &Element, cells: usize) -> Result<Body> {
+    let law = match model {
+        "neo_hookean" => Law::NeoHookean(NeoHookean::Moduli { C: 1e4, D: 3e4 }),
+        _ => Law::Linear(Elastic::new(1e5, 0.3)),
     };
-    let shape = if element.dimension == 3 { "box = { size = [1, 1, 1]" } else { "rectangle = { size = [1, 1]" };
-    let order = element.order;
-    let text = format!(
-        "pipeline = \"engine\"\n[mesh]\n{shape}, cells_per_unit = {cells}, pattern = \"kuhn\" }}\norder = {order}\n[material]\n{moduli}\n\
-         density = 1000.0\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n\
-         [newton]\nmax_iterations = 50\ntolerance = 1e-13\n[solver]\nkind = \"cholesky\"\n"
-    );
-    let law = if model == "neo_hookean" { "neo-hookean" } else { "linear" };
-    let name = format!("manufactured-{law}{}", ending(element));
-    let mut scene = parse(&text, Path::new(&format!("{name}.toml"))).map_err(|error| error.to_string())?;
-    let unconstrained = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
+    let mesh = match element.dimension {
+        3 => BodyMesh::from(box_mesh([1.0; 3], cells, Pattern::Kuhn)?),
+        _ => BodyMesh::flat(rectangle_mesh([1.0; 2], cells, Pattern::Kuhn)?, 1.0),
+    };
+    let body = Body::new(mesh.of_order(element.order).ok_or("there is no such element")?, Material::new(law, 1000.0))?;
     let is_inside = |x: &Vector3<f64>| (0..element.dimension).all(|i| x[i] > 0.0 && x[i] < 1.0);
-    let vertices = unconstrained.shape.mesh.vertices();
+    let vertices = body.shape.mesh.vertices();
     let sides = (0..vertices.len()).filter(|&node| !is_inside(&vertices[node])).collect();
-    scene.fixed = Some(FixedTable { nodes: Some(sides), ..FixedTable::default() });
-    let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
-    Ok((scene, body))
+    Ok(body.fix(&Selector::Nodes(sides))?)
 }
 
 /// Nodal loads ∫ b φ, N.
@@ -227,7 +233,7 @@ mod tests {
     fn the_body_force_is_minus_the_divergence_of_the_stress() {
         let all = ["linear", "neo_hookean"].into_iter().flat_map(|model| Element::ALL.map(|element| (model, element)));
         for (model, element) in all {
-            let law = AnyLaw::<f64>::new(&fixed_body(model, element, 1).unwrap().1.material).unwrap();
+            let law = AnyLaw::<f64>::new(&fixed_body(model, element, 1).unwrap().material).unwrap();
             let exact = Exact { dimensions: element.dimension };
             let X = Vector3::new(0.31, 0.62, 0.27);
             let stress = |X: &Vector3<f64>| <f64 as fem_engine::Real>::law(&law).stress(&exact.gradient(X));
@@ -268,7 +274,7 @@ mod tests {
 
     /// The error of the stresses of a linear law in its energy norm, as a part of the norm of the stresses.
     fn true_error(solved: &Solved, exact: Exact) -> f64 {
-        let law = AnyLaw::<f64>::new(&solved.scene.material.value()).unwrap();
+        let law = AnyLaw::<f64>::new(&solved.material).unwrap();
         let energy = |G: &Tensor<f64>| <f64 as fem_engine::Real>::law(&law).energy(G);
         let (mesh, points) = (&solved.mesh, points(&solved.mesh));
         let [mut error, mut size] = [0.0; 2];

@@ -7,4 +7,3 @@ pub mod manufactured;
 pub mod nested;
 pub mod norms;
 pub mod points;
-mod quadrature;

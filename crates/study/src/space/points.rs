@@ -1,9 +1,7 @@
 //! Points of elements, for integrals of high degree, and shape functions at them.
 
-use nalgebra::Vector3;
-
-use crate::space::quadrature::Rule;
 use fem_model::BodyMesh;
+use nalgebra::Vector3;
 
 /// Index of the quadrature rule: exact for polynomials of degree 7.
 const RULE: u32 = 3;
@@ -30,5 +28,69 @@ impl Point {
 pub fn points(mesh: &BodyMesh) -> Vec<Point> {
     let element = mesh.element();
     let point = |(L, weight): (Vec<f64>, f64)| Point { values: element.values(&L), barycentric: L, weight };
-    Rule::of_index(element.dimension, RULE).points.into_iter().map(point).collect()
+    rule(element.dimension, RULE).into_iter().map(point).collect()
+}
+
+/// A rule for integrals over a triangle or a tetrahedron that is exact for polynomials of degree 2s + 1: points in barycentric coordinates with
+/// weights that add up to 1. A. Grundmann and H. M. Möller, "Invariant integration formulas for the n-simplex by combinatorial methods", SIAM
+/// Journal on Numerical Analysis 15, 1978.
+fn rule(dimension: usize, s: u32) -> Vec<(Vec<f64>, f64)> {
+    let corners = dimension + 1;
+    let dimension = dimension as u32;
+    let mut points = Vec::new();
+    let degree = f64::from(2 * s + 1);
+    for i in 0..=s {
+        let below = degree + f64::from(dimension) - 2.0 * f64::from(i);
+        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+        // Times the factorial of the dimension, so that the weights add up to 1 instead of to the volume of the unit simplex.
+        let weight = factorial(dimension) * sign * 0.25f64.powi(s as i32) * below.powf(degree)
+            / (factorial(i) * factorial(2 * s + 1 + dimension - i));
+        for counts in compositions(s - i, corners) {
+            points.push((counts.into_iter().map(|count| f64::from(2 * count + 1) / below).collect(), weight));
+        }
+    }
+    points
+}
+
+/// All ways to write a number as a sum of so many numbers, the first ones smallest first.
+fn compositions(total: u32, parts: usize) -> Vec<Vec<u32>> {
+    if parts == 1 {
+        return vec![vec![total]];
+    }
+    let with_first = |first: u32| {
+        let rest = compositions(total - first, parts - 1);
+        rest.into_iter().map(move |rest| [vec![first], rest].concat())
+    };
+    (0..=total).flat_map(with_first).collect()
+}
+
+fn factorial(n: u32) -> f64 {
+    (1..=n).map(f64::from).product()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_up_to_the_degree_are_integrated_exactly() {
+        // ∫ x^a y^b z^c over the unit tetrahedron, over its volume, is 6 a! b! c! / (a + b + c + 3)!.
+        for s in 0..=4 {
+            let (solid, flat) = (rule(3, s), rule(2, s));
+            for (a, b, c) in [(0, 0, 0), (1, 0, 0), (2, 1, 0), (2, 2, 1), (3, 2, 2), (5, 2, 2)] {
+                if a + b + c > 2 * s + 1 {
+                    continue;
+                }
+                let monomial = |x: &[f64]| x[0].powi(a as i32) * x[1].powi(b as i32) * x[2].powi(c as i32);
+                let found: f64 = solid.iter().map(|(x, weight)| weight * monomial(x)).sum();
+                let exact = 6.0 * factorial(a) * factorial(b) * factorial(c) / factorial(a + b + c + 3);
+                assert!((found - exact).abs() < 1e-13, "{s}: {a} {b} {c}: {found} {exact}");
+                // Over a triangle, x^a y^(b + c) of its mean is 2 a! (b + c)! / (a + b + c + 2)!.
+                let monomial = |x: &[f64]| x[0].powi(a as i32) * x[1].powi((b + c) as i32);
+                let found: f64 = flat.iter().map(|(x, weight)| weight * monomial(x)).sum();
+                let exact = 2.0 * factorial(a) * factorial(b + c) / factorial(a + b + c + 2);
+                assert!((found - exact).abs() < 1e-13, "{s}: {a} {b} {c}: {found} {exact}");
+            }
+        }
+    }
 }

@@ -68,6 +68,12 @@ pub fn distance_from_rest(simulation: &Simulator<f64>) -> f64 {
     u.fold(0.0, f64::max) / simulation.system().length
 }
 
+/// Largest speed of a node, body lengths per second.
+pub fn largest_speed(simulation: &Simulator<f64>) -> f64 {
+    let speeds = simulation.state().v.iter().map(|v| Vector3::from(*v).norm());
+    speeds.fold(0.0, f64::max) / simulation.system().length
+}
+
 /// Position of a node from its undeformed one.
 pub type Tangle = fn(&mut Random, &Vector3<f64>) -> Vector3<f64>;
 

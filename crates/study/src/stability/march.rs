@@ -73,27 +73,24 @@ pub fn march_with<T: Compiled>(
 }
 
 impl March {
-    /// The reason why the run does not survive; `None` if it does.
-    pub fn trouble(&self) -> Option<Finding> {
-        if self.is_late {
-            return Some(Finding::plain(Outcome::Hangs, format!("deadline after {} steps", self.steps)));
-        }
-        if let Some(failure) = &self.failure {
-            return Some(Finding::plain(
-                Outcome::Explodes,
-                format!("{failure} (smallest J until then: {:.3e})", self.min_J),
-            ));
-        }
-        if !self.is_finite {
-            return Some(Finding::plain(Outcome::NotFinite, format!("within {} steps", self.steps)));
-        }
-        if self.min_J <= 0.0 {
-            return Some(Finding::new(Outcome::Inverts, self.min_J, self.note()));
-        }
-        if self.is_unconverged() {
-            return Some(Finding::new(Outcome::Unconverged, self.min_J, self.note()));
-        }
-        None
+    /// Fails with the reason why the run does not survive.
+    pub fn survived(&self) -> Result<(), Finding> {
+        Err(match &self.failure {
+            _ if self.is_late => Finding::plain(Outcome::Hangs, format!("deadline after {} steps", self.steps)),
+            Some(failure) => {
+                let note = format!("{failure} (smallest J until then: {:.3e})", self.min_J);
+                Finding::plain(Outcome::Explodes, note)
+            }
+            None if !self.is_finite => Finding::plain(Outcome::NotFinite, format!("within {} steps", self.steps)),
+            None if self.min_J <= 0.0 => self.finding(Outcome::Inverts),
+            None if self.is_unconverged() => self.finding(Outcome::Unconverged),
+            None => return Ok(()),
+        })
+    }
+
+    /// A finding with the smallest J as margin.
+    fn finding(&self, outcome: Outcome) -> Finding {
+        Finding::new(outcome, self.min_J, self.note())
     }
 
     fn is_unconverged(&self) -> bool {
@@ -102,16 +99,16 @@ impl March {
 
     /// Survival of a body whose elements may invert, with the smallest J as margin.
     pub fn endurance(&self) -> Finding {
-        match self.trouble() {
-            Some(trouble) if trouble.outcome != Outcome::Inverts => trouble,
-            _ if self.is_unconverged() => Finding::new(Outcome::Unconverged, self.min_J, self.note()),
-            _ => Finding::new(Outcome::Survives, self.min_J, self.note()),
+        match self.survived() {
+            Err(trouble) if trouble.outcome != Outcome::Inverts => trouble,
+            _ if self.is_unconverged() => self.finding(Outcome::Unconverged),
+            _ => self.finding(Outcome::Survives),
         }
     }
 
     /// Survival, with the smallest J as margin.
     pub fn survival(&self) -> Finding {
-        self.trouble().unwrap_or_else(|| Finding::new(Outcome::Survives, self.min_J, self.note()))
+        self.survived().map_or_else(|trouble| trouble, |()| self.finding(Outcome::Survives))
     }
 
     /// The number of steps, and of those that did not converge.

@@ -4,12 +4,11 @@
 
 mod case;
 mod families;
-mod forecast;
 mod initial_state;
 mod march;
 mod page;
 mod results;
-mod scene_text;
+mod setup;
 mod theory;
 
 pub use case::{CaseRow, Cell, Map, Outcome};

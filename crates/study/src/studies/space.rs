@@ -2,13 +2,13 @@
 
 use super::Settings;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
-use crate::runs::names;
 use crate::runs::row::{Configuration, Errors, Row, Times};
 use crate::runs::states::{Snapshot, write_reference, write_state};
 use crate::scenes::{LINEAR, WITHOUT_LOCKING};
 use crate::space::locking::{self, TipDeflection};
 use crate::space::manufactured;
 use crate::space::norms;
+use crate::study::Result;
 use fem_engine::cantilever::moduli;
 use fem_model::Integrator;
 use fem_model::element::Element;
@@ -57,7 +57,7 @@ mod by_name {
 const FINEST: usize = 2;
 
 /// Solves on a sequence of meshes.
-pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
+pub fn study(settings: &Settings) -> Result<SpaceStudy> {
     super::make_folders(&settings.out)?;
     let mut space = SpaceStudy::default();
     for element in Element::ALL {
@@ -84,12 +84,7 @@ pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
 }
 
 /// Solves on a sequence of meshes and adds their rows.
-fn sequence(
-    settings: &Settings,
-    model: &str,
-    element: &'static Element,
-    rows: &mut Vec<Row>,
-) -> Result<SpaceOrders, String> {
+fn sequence(settings: &Settings, model: &str, element: &'static Element, rows: &mut Vec<Row>) -> Result<SpaceOrders> {
     let cells: &[usize] = match (element.dimension, element.order, settings.is_quick) {
         // 17³ and 33³ nodes already.
         (3, 2, true) => &[2, 4, 8],
@@ -120,9 +115,8 @@ pub fn spacing(row: &Row) -> f64 {
     if is_in_plane { (2.0 / elements).sqrt() } else { (6.0 / elements).cbrt() }
 }
 
-fn solved(settings: &Settings, model: &str, element: &Element, cells: usize, number: usize) -> Result<Row, String> {
+fn solved(settings: &Settings, model: &str, element: &Element, cells: usize, number: usize) -> Result<Row> {
     let solved = manufactured::solve(model, element, cells)?;
-    let scene = &solved.scene;
     let id = format!("manufactured-{:03}", number + 1);
     let kind = manufactured::ending(element);
     let state = format!("states/{id}.json");
@@ -131,12 +125,12 @@ fn solved(settings: &Settings, model: &str, element: &Element, cells: usize, num
     let snapshot = Snapshot { time: 1.0, q: &solved.q, qdot: &qdot, energies: (0.0, f64::NAN) };
     write_state(&settings.out.join(&state), &snapshot)?;
     let mesh = &solved.mesh;
-    write_reference(&settings.out.join(&reference_state), mesh, scene.material.density, None)?;
-    let moduli = moduli(&scene.material.value());
+    write_reference(&settings.out.join(&reference_state), mesh, solved.material.density, None)?;
+    let moduli = moduli(&solved.material);
     let seconds = Some(solved.seconds);
     let config = Configuration {
         id,
-        scene: scene.name.clone(),
+        scene: solved.name.clone(),
         group: "space".to_owned(),
         method: format!("static, {cells} cells"),
         pipeline: "engine".to_owned(),
@@ -147,7 +141,7 @@ fn solved(settings: &Settings, model: &str, element: &Element, cells: usize, num
         poisson: moduli.map(|moduli| moduli.poisson),
         integrator: Integrator::Static,
         projection: "when_needed".to_owned(),
-        solver: names::solver_name(scene),
+        solver: "cholesky".to_owned(),
         dt: 1.0,
         steps: 1,
         tolerance: Some(1e-13),

@@ -4,11 +4,9 @@
 //! where a killed run was, and joins shards.
 
 mod journal;
-mod output;
 pub mod pack;
 mod page;
 mod runner;
-mod shard;
 #[cfg(test)]
 mod tests;
 
@@ -20,11 +18,16 @@ use serde::de::DeserializeOwned;
 
 use crate::machine::Machine;
 
-pub use journal::arguments;
-pub use output::write;
-pub use page::{Column, Figure, Mark, Page, Part, Table};
+pub use journal::{Shard, arguments};
+pub(crate) use page::csv_text;
+pub use page::{Column, Figure, Mark, Page, Part, Table, write};
 pub use runner::{Deadline, Run, Stopped, carry_out, guarded, rows};
-pub use shard::Shard;
+
+/// The reason why a computation of a study has no result, as a sentence.
+pub type Problem = Box<dyn std::error::Error + Send + Sync>;
+
+/// The result of such a computation.
+pub type Result<T, E = Problem> = std::result::Result<T, E>;
 
 /// A case of a study.
 pub struct Case<'a, Row> {
@@ -39,6 +42,14 @@ impl<'a, Row> Case<'a, Row> {
     pub fn new(name: impl Into<String>, work: impl FnOnce() -> Row + Send + 'a) -> Self {
         Self { name: name.into(), work: Box::new(work) }
     }
+}
+
+/// Every pair of a value of one list and a value of another, the second fastest.
+pub fn pairs<A: Clone, B: IntoIterator + Clone>(
+    first: impl IntoIterator<Item = A>,
+    second: B,
+) -> impl Iterator<Item = (A, B::Item)> {
+    first.into_iter().flat_map(move |a| second.clone().into_iter().map(move |b| (a.clone(), b)))
 }
 
 /// A table of cases.

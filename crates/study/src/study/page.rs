@@ -1,12 +1,15 @@
-//! Parts of a page: statements that must be true, tables, pictures, with a paragraph about them.
+//! Parts of a page: statements that must be true, tables, pictures, with a paragraph about them; and the files of a page: a table for each table,
+//! a picture for each picture, a page for readers.
 
-use fem_chart::page::table;
+use std::io;
+use std::path::Path;
+
+use fem_chart::page::{details, figure, page, table};
 use fem_chart::{Chart, Picture};
-use maud::Markup;
+use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
 
 use super::Finished;
-use crate::csv_table::csv_text;
 use crate::machine::Machine;
 
 /// A statement that must be true of an outcome.
@@ -26,6 +29,11 @@ impl Mark {
     /// A mark without a figure of another source.
     pub fn new(statement: impl Into<String>, ours: impl Into<String>, holds: bool) -> Self {
         Self { statement: statement.into(), theirs: String::new(), ours: ours.into(), holds: Some(holds) }
+    }
+
+    /// A mark of a number that is at most its bound; NaN is not.
+    pub fn at_most(statement: impl Into<String>, ours: f64, bound: f64) -> Self {
+        Self::new(statement, format!("{ours:.1e}"), ours <= bound)
     }
 
     /// Adds the figure of the thesis.
@@ -63,16 +71,16 @@ pub struct Table {
 pub type Column<'a, Row> = (&'a str, &'a dyn Fn(&Row) -> String);
 
 impl Table {
-    /// A table of rows that are written already.
-    pub fn new(name: impl Into<String>, head: &[&str], rows: Vec<Vec<String>>) -> Self {
-        Self { name: name.into(), head: head.iter().map(|&name| name.to_owned()).collect(), rows }
+    /// A table of rows that are written already, with the names of its columns between bars, such as `law | >E (Pa)`.
+    pub fn new(name: impl Into<String>, head: &str, rows: Vec<Vec<String>>) -> Self {
+        Self { name: name.into(), head: head.split(" | ").map(str::to_owned).collect(), rows }
     }
 
     /// A table with the cells of these columns.
     pub fn of<Row>(name: impl Into<String>, rows: &[Row], columns: &[Column<Row>]) -> Self {
-        let head: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+        let head = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
         let row = |row: &Row| columns.iter().map(|(_, cell)| cell(row)).collect();
-        Self::new(name, &head, rows.iter().map(row).collect())
+        Self { name: name.into(), head, rows: rows.iter().map(row).collect() }
     }
 
     /// The text of its file.
@@ -96,6 +104,13 @@ pub struct Figure {
     pub picture: Picture,
     /// The caption.
     pub caption: String,
+}
+
+impl Figure {
+    /// A picture with its caption.
+    pub fn new(name: impl Into<String>, picture: Picture, caption: impl Into<String>) -> Self {
+        Self { name: name.into(), picture, caption: caption.into() }
+    }
 }
 
 /// A part of a page.
@@ -140,7 +155,7 @@ impl Part {
 
     /// Adds a chart with its caption.
     pub fn chart(self, name: impl Into<String>, chart: &Chart, caption: impl Into<String>) -> Self {
-        self.figures([Figure { name: name.into(), picture: chart.draw(), caption: caption.into() }])
+        self.figures([Figure::new(name, chart.draw(), caption)])
     }
 
     /// Adds pictures.
@@ -150,8 +165,8 @@ impl Part {
     }
 
     /// A part whose run has failed.
-    pub fn failed(problem: String) -> Self {
-        Self::new("").marks([Mark::new("the part runs to its end", problem, false)])
+    pub fn failed(problem: impl ToString) -> Self {
+        Self::new("").marks([Mark::new("the part runs to its end", problem.to_string(), false)])
     }
 
     /// Returns true if no mark fails.
@@ -194,5 +209,84 @@ impl Page<'_> {
         let failed = self.marks().filter(|(_, mark)| mark.holds == Some(false)).count();
         let failed = (failed > 0).then(|| format!("{failed} marks do not hold"));
         Finished { lines: self.marks().map(line).collect(), failed }
+    }
+}
+
+/// Rows of a table that a page shows at once; a longer one is opened by the reader.
+const LONG: usize = 40;
+
+/// Writes the page, the tables (`.csv`) and the pictures (`.svg`) into a folder.
+pub fn write(of: &Page, folder: &Path) -> io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    for part in &of.parts {
+        for table in &part.tables {
+            std::fs::write(folder.join(format!("{}.csv", table.name)), table.csv()?)?;
+        }
+        for figure in &part.figures {
+            std::fs::write(folder.join(format!("{}.svg", figure.name)), figure.picture.standalone())?;
+        }
+    }
+    std::fs::write(folder.join(format!("{}.html", of.name)), render(of))
+}
+
+fn render(of: &Page) -> String {
+    let failed = of.marks().filter(|(_, mark)| mark.holds == Some(false)).count();
+    let judged = of.marks().filter(|(_, mark)| mark.holds.is_some()).count();
+    let body = html! {
+        h1 { (of.title) }
+        p { (of.text) } "\n"
+        div class="answer" {
+            @if failed == 0 { "All " b { (judged) } " marks hold." }
+            @else { b { (failed) } " of " (judged) " marks do not hold." }
+        } "\n"
+        p class="soft" {
+            @if of.quick { "This is the short run; times are not judged in it. " }
+            (of.machine.line()) "."
+        } "\n"
+        @for part in &of.parts { (chapter(part)) }
+    };
+    page(of.title, body)
+}
+
+fn chapter(part: &Part) -> Markup {
+    let line = |mark: &Mark| {
+        let holds = html! { @if mark.holds == Some(false) { b { (mark.verdict()) } } @else { (mark.verdict()) } };
+        let wrapped = |text: &str| html! { div class="wide" { (text) } };
+        vec![wrapped(&mark.statement), html! { (mark.theirs) }, wrapped(&mark.ours), holds]
+    };
+    html! {
+        h2 { (part.title) }
+        p { (part.text) } "\n"
+        (table(&["mark", "source", "here", ""], &part.marks.iter().map(line).collect::<Vec<_>>()))
+        div class="charts" { @for shown in &part.figures { (figure(&shown.picture, &shown.caption)) } } "\n"
+        @for numbers in &part.tables {
+            @if numbers.rows.len() > LONG { (details(&format!("{}.csv, {} rows", numbers.name, numbers.rows.len()), numbers.html())) }
+            @else { (numbers.html()) }
+        }
+    }
+}
+
+/// A head and rows of the same length as the text of a CSV file (RFC 4180).
+pub fn csv_text<I>(head: &[&str], rows: impl IntoIterator<Item = I>) -> Result<String, csv::Error>
+where
+    I: IntoIterator<Item = String>,
+{
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(head)?;
+    for row in rows {
+        writer.write_record(row.into_iter().map(String::into_bytes))?;
+    }
+    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::csv_text;
+
+    #[test]
+    fn cells_with_commas_and_quotes_are_quoted() {
+        let row = ["say \"no\"", "plain", ""].map(str::to_owned);
+        assert_eq!(csv_text(&["a,b", "c", "d"], [row]).unwrap(), "\"a,b\",c,d\n\"say \"\"no\"\"\",plain,\n");
     }
 }

@@ -9,8 +9,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::journal::{Heading, Journal, Line, found, joined};
-use super::shard::Shard;
+use super::journal::{Heading, Journal, Line, Shard, found, joined};
 use super::{Case, Finished, Found, Study, Trouble};
 use crate::machine::Machine;
 

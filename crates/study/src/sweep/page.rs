@@ -5,9 +5,9 @@ use fem_chart::{Axis, COLOURS, Chart, Dot, Picture, SHAPES, Series};
 use maud::{Markup, html};
 
 use super::{Sweep, SweptRun, quantity};
-use crate::csv_table::csv_text;
 use crate::machine::Machine;
 use crate::report::text::{number, seconds};
+use crate::study::csv_text;
 
 /// A cell of the table.
 type Cell = fn(&SweptRun) -> String;

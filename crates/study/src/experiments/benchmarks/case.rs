@@ -6,10 +6,10 @@ use fem_chart::{Axis, Chart, Dot, Series};
 use fem_engine::simulator::build;
 use fem_mesh::{Pattern, box_mesh, rectangle_mesh};
 use fem_model::simulation::Simulation;
-use fem_model::{Body, BodyMesh, Integrator, Method, Motion, Selector};
+use fem_model::{Body, BodyMesh, Integrator, Material, Method, Motion, Refusal, Selector};
 use nalgebra::Vector3;
 
-use crate::study::{Mark, Part, Table};
+use crate::study::{Mark, Part, Result, Table};
 
 /// The source of a reference that is computed here.
 pub const CLOSED_FORM: &str = "closed form";
@@ -42,9 +42,8 @@ pub struct Mapped {
 
 impl Mapped {
     /// Quadratic triangles, one in each half of so many cells along both edges.
-    pub fn square(cells: [usize; 2], map: impl Fn(f64, f64) -> [f64; 2]) -> Result<Self, String> {
-        let mut mesh =
-            rectangle_mesh(cells.map(|n| n as f64), 1, Pattern::Alternating).map_err(|error| error.to_string())?;
+    pub fn square(cells: [usize; 2], map: impl Fn(f64, f64) -> [f64; 2]) -> Result<Self> {
+        let mut mesh = rectangle_mesh(cells.map(|n| n as f64), 1, Pattern::Alternating)?;
         let place = |x: &Vector3<f64>| Vector3::new(x.x / cells[0] as f64, x.y / cells[1] as f64, 0.0);
         mesh.vertices.iter_mut().for_each(|x| *x = place(x));
         let unit = BodyMesh::flat(mesh.clone(), 1.0);
@@ -56,8 +55,8 @@ impl Mapped {
     }
 
     /// Quadratic tetrahedra in so many cells along the three edges.
-    pub fn cube(cells: [usize; 3], map: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Result<Self, String> {
-        let mut mesh = box_mesh(cells.map(|n| n as f64), 1, Pattern::Alternating).map_err(|error| error.to_string())?;
+    pub fn cube(cells: [usize; 3], map: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Result<Self> {
+        let mut mesh = box_mesh(cells.map(|n| n as f64), 1, Pattern::Alternating)?;
         let place = |x: &Vector3<f64>| x.component_div(&Vector3::from(cells.map(|n| n as f64)));
         mesh.vertices.iter_mut().for_each(|x| *x = place(x));
         let unit = BodyMesh::from(mesh.clone());
@@ -65,7 +64,7 @@ impl Mapped {
         Self::quadratic(unit, BodyMesh::from(mesh))
     }
 
-    fn quadratic(unit: BodyMesh, mesh: BodyMesh) -> Result<Self, String> {
+    fn quadratic(unit: BodyMesh, mesh: BodyMesh) -> Result<Self> {
         let of_order = |mesh: BodyMesh| mesh.of_order(2).ok_or("there is no quadratic element");
         Ok(Self { places: of_order(unit)?.vertices().to_vec(), mesh: of_order(mesh)? })
     }
@@ -77,38 +76,34 @@ impl Mapped {
     }
 }
 
-/// Constrains the components of the nodes that `is_constrained` names by their places.
-pub fn constrain(
-    mut body: Body,
+/// A body with the supports that `is_constrained` names by the places of its nodes.
+pub fn supported(
+    mesh: BodyMesh,
+    material: Material,
     places: &[Vector3<f64>],
     is_constrained: impl Fn(&Vector3<f64>) -> [bool; 3],
-) -> Result<Body, String> {
+) -> Result<Body, Refusal> {
+    let mut body = Body::new(mesh, material)?;
     let masks: Vec<[bool; 3]> = places.iter().map(is_constrained).collect();
     for bits in 1..8 {
         let mask = [0, 1, 2].map(|i| bits >> i & 1 == 1);
         let nodes: Vec<usize> = (0..masks.len()).filter(|&node| masks[node] == mask).collect();
         if !nodes.is_empty() {
-            let constrained = body.prescribe(&Selector::Nodes(nodes), mask, Motion::by([0.0; 3]));
-            body = constrained.map_err(|refusal| refusal.to_string())?;
+            body = body.prescribe(&Selector::Nodes(nodes), mask, Motion::by([0.0; 3]))?;
         }
     }
     Ok(body)
 }
 
 /// Equilibrium in so many load steps, and the time that it took, s.
-pub fn equilibrium(body: Body, load_steps: usize) -> Result<(Box<dyn Simulation>, f64), String> {
+pub fn equilibrium(body: Body, load_steps: usize) -> Result<(Box<dyn Simulation>, f64)> {
     let method = Method { load_steps, ..Method::new(Integrator::Static, 1.0) };
-    let mut simulation = build(body, &method).map_err(|refusal| refusal.to_string())?;
+    let mut simulation = build(body, &method)?;
     let start = Instant::now();
     for _ in 0..load_steps {
-        simulation.step().map_err(|failure| failure.to_string())?;
+        simulation.step()?;
     }
     Ok((simulation, start.elapsed().as_secs_f64()))
-}
-
-/// Displacement of a node, m.
-pub fn displacement(simulation: &dyn Simulation, node: usize) -> Vector3<f64> {
-    simulation.positions().fixed_rows::<3>(3 * node) - simulation.shape().mesh.vertices()[node]
 }
 
 /// A relative error in words.
@@ -127,10 +122,10 @@ pub fn part(
     quantities: &[Quantity],
     (meshes, short): (&[usize], usize),
     quick: bool,
-    mut solve: impl FnMut(usize) -> Result<Level, String>,
-) -> Result<Part, String> {
+    mut solve: impl FnMut(usize) -> Result<Level>,
+) -> Result<Part> {
     let meshes = if quick { &meshes[..short] } else { meshes };
-    let levels = meshes.iter().map(|&cells| Ok((cells, solve(cells)?))).collect::<Result<Vec<_>, String>>()?;
+    let levels = meshes.iter().map(|&cells| Ok((cells, solve(cells)?))).collect::<Result<Vec<_>>>()?;
     let error = |(_, level): &(usize, Level), k: usize| level.values[k] / quantities[k].reference - 1.0;
     let marks = quantities.iter().enumerate().map(|(k, of)| {
         let (value, error) = levels.last().map_or((f64::NAN, f64::NAN), |level| (level.1.values[k], error(level, k)));
@@ -138,9 +133,8 @@ pub fn part(
         let theirs = format!("{} ({})", of.reference, of.source);
         Mark::new(statement, format!("{value:.5e}, {}", percent_of(error)), error.abs() <= of.tolerance).beside(theirs)
     });
-    let mut head = vec![">cells or steps", ">nodes"];
-    quantities.iter().for_each(|of| head.extend([of.name, ">error (%)"]));
-    head.push(">solution (ms)");
+    let columns: String = quantities.iter().map(|of| format!(" | {} | >error (%)", of.name)).collect();
+    let head = format!(">cells or steps | >nodes{columns} | >solution (ms)");
     let row = |level: &(usize, Level)| {
         let mut row = vec![level.0.to_string(), level.1.nodes.to_string()];
         for k in 0..quantities.len() {

@@ -6,11 +6,11 @@ use std::time::Instant;
 use fem_model::Integrator;
 
 use super::case::{CLOSED_FORM, Level, Quantity, part};
-use crate::experiments::flat::contact::{ball, impact};
-use crate::study::{Mark, Part};
+use crate::experiments::flat::contact::{hertz, impact};
+use crate::study::{Mark, Part, Result};
 
 /// Duration of the contact and stress on the plane, of the finest bar.
-pub fn bar(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn bar(_: &Path, quick: bool) -> Result<Part> {
     let quantity = |name, reference| Quantity { name, reference, tolerance: 2e-2, source: CLOSED_FORM };
     let of = [quantity("duration 2 L/c (s)", impact::DURATION), quantity("stress ρ c v (Pa)", impact::STRESS)];
     let text = "A bar of 1 m, c = 10 m/s, ν = 0, in so many squares of two quadratic triangles, which meets a plane with 0.1 m/s, by BDF2 in steps of 0.4 squares over c. The force is the mean while the wave runs.";
@@ -21,15 +21,12 @@ pub fn bar(_: &Path, quick: bool) -> Result<Part, String> {
         error = impulse_error;
         Ok(Level { nodes: 3 * (2 * cells + 1), values: vec![duration, stress], seconds: start.elapsed().as_secs_f64() })
     })?;
-    Ok(found.marks([Mark::new(
-        "the impulse is the change of momentum within 1e-5",
-        format!("{error:.1e}"),
-        error < 1e-5,
-    )]))
+    let statement = "the impulse is the change of momentum within 1e-5";
+    Ok(found.marks([Mark::new(statement, format!("{error:.1e}"), error < 1e-5)]))
 }
 
 /// The force of the finest ball over Hertz's.
-pub fn hertz(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn hertz(_: &Path, quick: bool) -> Result<Part> {
     // The mark is for a/h = 8.
     let tolerance = if quick { 8e-2 } else { 3e-2 };
     let of = Quantity { name: "force over 4/3 E* √R d^1.5", reference: 1.0, tolerance, source: CLOSED_FORM };
@@ -40,7 +37,7 @@ pub fn hertz(_: &Path, quick: bool) -> Result<Part, String> {
     let cells: &[usize] = if quick { &[2, 3] } else { &[2, 4, 8] };
     let found = part(("hertz", text), &[of], (cells, cells.len()), quick, |cells| {
         let start = Instant::now();
-        let ball::Hertz { force: [found, expected], nodes, .. } = ball::contact(ball::RADIUS / cells as f64)?;
+        let hertz::Hertz { force: [found, expected], nodes, .. } = hertz::contact(hertz::RADIUS / cells as f64)?;
         errors.push((found / expected - 1.0).abs());
         Ok(Level { nodes, values: vec![found / expected], seconds: start.elapsed().as_secs_f64() })
     })?;

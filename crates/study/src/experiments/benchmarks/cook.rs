@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use fem_model::{Axis, Body, Elastic, Law, Material, NeoHookean, PlaneState, Selector, Volumetric};
+use fem_model::{Axis, Elastic, Law, Material, NeoHookean, PlaneState, Selector, Volumetric};
 
-use super::case::{Level, Mapped, Quantity, constrain, displacement, equilibrium, part};
-use crate::study::Part;
+use super::case::{Level, Mapped, Quantity, equilibrium, part, supported};
+use crate::scenes::displacement;
+use crate::study::{Part, Result};
 
 /// Small strain, E = 1, ν = 1/3.
-pub fn plane_stress(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn plane_stress(_: &Path, quick: bool) -> Result<Part> {
     let law = Law::Linear(Elastic::new(1.0, 1.0 / 3.0));
     let material = Material { plane: PlaneState::Stress, ..Material::new(law, 1.0) };
     let of = Quantity {
@@ -22,7 +23,7 @@ pub fn plane_stress(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// Small strain, E = 70, ν = 1/3.
-pub fn plane_strain(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn plane_strain(_: &Path, quick: bool) -> Result<Part> {
     let material = Material::new(Law::Linear(Elastic::new(70.0, 1.0 / 3.0)), 1.0);
     let of = Quantity {
         name: "u_y at (48, 60) (m)",
@@ -35,7 +36,7 @@ pub fn plane_strain(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// Large strain, κ/μ = 5000, with the volume averaged over each element.
-pub fn incompressible(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn incompressible(_: &Path, quick: bool) -> Result<Part> {
     let law = Law::NeoHookean(NeoHookean::Moduli { C: 40.0969, D: 200_471.6 });
     let material = Material { volumetric: Volumetric::Averaged, ..Material::new(law, 1.0) };
     let of = Quantity {
@@ -52,13 +53,11 @@ pub fn incompressible(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// The vertical displacement at a part of the height of the loaded side.
-fn solve(cells: usize, material: Material, load: f64, load_steps: usize, height: f64) -> Result<Level, String> {
+fn solve(cells: usize, material: Material, load: f64, load_steps: usize, height: f64) -> Result<Level> {
     let mapped = Mapped::square([cells; 2], |s, t| [48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s)])?;
     let (nodes, node) = (mapped.places.len(), mapped.node_at([1.0, height, 0.0]));
-    let body = Body::new(mapped.mesh, material).map_err(|refusal| refusal.to_string())?;
-    let body = constrain(body, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?;
-    let body =
-        body.traction(&Selector::most(Axis::X), [0.0, load / 16.0, 0.0]).map_err(|refusal| refusal.to_string())?;
+    let body = supported(mapped.mesh, material, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?;
+    let body = body.traction(&Selector::most(Axis::X), [0.0, load / 16.0, 0.0])?;
     let (simulation, seconds) = equilibrium(body, load_steps)?;
     Ok(Level { nodes, values: vec![displacement(&*simulation, node).y], seconds })
 }

@@ -10,9 +10,9 @@ use fem_engine::simulator::Simulator;
 use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Selector};
 use nalgebra::{Matrix2, Vector2};
 
-use super::case::{CLOSED_FORM, Level, Mapped, Quantity, constrain, displacement, part};
-use crate::scenes::steps;
-use crate::study::Part;
+use super::case::{CLOSED_FORM, Level, Mapped, Quantity, part, supported};
+use crate::scenes::{displacement, steps};
+use crate::study::{Part, Result};
 
 /// Length of the beam in thicknesses, and its bending stiffness, N m², with E = 1 Pa, a thickness and a width of 1 m.
 const LENGTH: f64 = 100.0;
@@ -26,7 +26,7 @@ const FORCES: [(f64, [&str; 2]); 4] = [
 ];
 
 /// Drops and shortenings of the end under forces, and its rotation and shortening under the moment.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let quantity = |name, reference| Quantity { name, reference, tolerance: 5e-3, source: CLOSED_FORM };
     let mut of = Vec::new();
     for (alpha, names) in FORCES {
@@ -71,23 +71,24 @@ fn integral([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     (0..=PARTS).map(|i| weight(i) * f(from + h * i as f64)).sum::<f64>() * h / 3.0
 }
 
-fn beam(cells: usize) -> Result<(Body, Mapped), String> {
+fn beam(cells: usize) -> Result<(Body, Mapped)> {
     let mapped = Mapped::square([cells, 1], |s, t| [LENGTH * s, t])?;
     let material = Material::new(Law::StVenantKirchhoff(Elastic::new(1.0, 0.0)), 1.0);
-    let body = Body::new(mapped.mesh.clone(), material).map_err(|refusal| refusal.to_string())?;
-    Ok((constrain(body, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?, mapped))
+    Ok((
+        supported(mapped.mesh.clone(), material, &mapped.places, |place| [place.x == 0.0, place.x == 0.0, false])?,
+        mapped,
+    ))
 }
 
 /// Number of nodes, and drops and shortenings of the end as the force grows in twenty steps.
-fn forced(cells: usize) -> Result<(usize, Vec<f64>), String> {
+fn forced(cells: usize) -> Result<(usize, Vec<f64>)> {
     let (body, mapped) = beam(cells)?;
     let end = mapped.node_at([1.0, 0.5, 0.0]);
     let most = FORCES[3].0;
     let force = most * BENDING / LENGTH.powi(2);
     let method = Method { load_steps: 20, ..Method::new(Integrator::Static, 1.0) };
     let body = body.traction(&Selector::most(Axis::X), [0.0, -force, 0.0]);
-    let mut simulation =
-        body.and_then(|body| Simulator::<f64>::new(body, &method)).map_err(|refusal| refusal.to_string())?;
+    let mut simulation = body.and_then(|body| Simulator::<f64>::new(body, &method))?;
     let (mut values, mut done) = (Vec::new(), 0);
     for (alpha, _) in FORCES {
         let until = (alpha / most * 20.0).round() as usize;
@@ -100,15 +101,14 @@ fn forced(cells: usize) -> Result<(usize, Vec<f64>), String> {
 }
 
 /// Rotation of the end over 2π and its shortening over the length, under a moment of 2π E I/L.
-fn rolled(cells: usize) -> Result<[f64; 2], String> {
+fn rolled(cells: usize) -> Result<[f64; 2]> {
     let (body, mapped) = beam(cells)?;
     let [lower, middle, upper] = [0.0, 0.5, 1.0].map(|height| mapped.node_at([1.0, height, 0.0]));
     let method = Method { load_steps: 40, ..Method::new(Integrator::Static, 1.0) };
     let end = |nodes: [usize; 2]| EndMoment { nodes, moment: TAU * BENDING / LENGTH };
     let mut simulation = Simulator::<f64>::with_forces(body, &method, &|numbering| {
         vec![Box::new(end([lower, upper].map(|node| numbering.engine_node[node] as usize)))]
-    })
-    .map_err(|refusal| refusal.to_string())?;
+    })?;
     steps(&mut simulation, 40)?;
     let u = |node| displacement(&simulation, node);
     let across = u(upper) - u(lower);

@@ -9,8 +9,8 @@ use fem_engine::solvers::SolverChoice;
 use fem_model::{Body, Elastic, Law, Material};
 use nalgebra::{Cholesky, DMatrix, Vector3};
 
-use super::case::{Level, Mapped, Quantity, constrain, part};
-use crate::study::Part;
+use super::case::{Level, Mapped, Quantity, part, supported};
+use crate::study::{Part, Result};
 
 /// Length of the beam of 1 × 1 m, m.
 const LENGTH: f64 = 20.0;
@@ -19,7 +19,7 @@ const ELASTIC: Elastic = Elastic { young: 1e6, poisson: 0.3 };
 const DENSITY: f64 = 1000.0;
 
 /// The first three.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let names = ["first (rad/s)", "second (rad/s)", "third (rad/s)"];
     let of: Vec<Quantity> = (names.into_iter().zip(timoshenko()))
         .map(|(name, reference)| Quantity { name, reference, tolerance: 5e-3, source: "Timoshenko's beam" })
@@ -29,13 +29,12 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     part(("beam-frequency", text), &of, (&[20, 40, 60], 2), quick, solve)
 }
 
-fn solve(cells: usize) -> Result<Level, String> {
+fn solve(cells: usize) -> Result<Level> {
     let across = cells / 10;
     let mapped =
         Mapped::cube([cells, across, across.div_ceil(2)], |x| x.component_mul(&Vector3::new(LENGTH, 1.0, 0.5)))?;
     let material = Material::new(Law::Linear(ELASTIC), DENSITY);
-    let body = Body::new(mapped.mesh, material).map_err(|refusal| refusal.to_string())?;
-    let body = constrain(body, &mapped.places, |place| {
+    let body = supported(mapped.mesh, material, &mapped.places, |place| {
         let is_end = place.x == 0.0;
         [is_end, is_end, is_end || place.z == 0.0]
     })?;
@@ -49,7 +48,7 @@ const VECTORS: usize = 6;
 
 /// The smallest angular frequencies of a body, of which the first half is accurate, rad/s: K. J. Bathe and E. L. Wilson, Solution Methods for Large
 /// Eigenvalue Problems in Structural Mechanics (1973).
-fn frequencies(body: Body) -> Result<Vec<f64>, String> {
+fn frequencies(body: Body) -> Result<Vec<f64>> {
     let system = system(body, SolverChoice::Cholesky);
     let (nodes, free) = (system.nodes(), system.free());
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
@@ -81,11 +80,11 @@ fn frequencies(body: Body) -> Result<Vec<f64>, String> {
         }
         (forces, squares) = (mass_times(&(x * modes)), next);
     }
-    Err("the iterations of the subspace have not converged".to_owned())
+    Err("the iterations of the subspace have not converged".into())
 }
 
 /// The eigenvalues of a stiffness and a mass, ascending, and the eigenvectors, in any order.
-fn modes(stiffness: DMatrix<f64>, mass: DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>), String> {
+fn modes(stiffness: DMatrix<f64>, mass: DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>)> {
     let lower = Cholesky::new(mass).and_then(|factor| factor.l().try_inverse());
     let lower = lower.ok_or("the vectors of the subspace depend on each other")?;
     let eigen = (&lower * (0.5 * (&stiffness + stiffness.transpose())) * lower.transpose()).symmetric_eigen();

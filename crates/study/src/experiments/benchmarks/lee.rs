@@ -8,9 +8,9 @@ use fem_engine::simulator::Simulator;
 use fem_model::simulation::Diagnostics;
 use fem_model::{Body, Elastic, Integrator, Law, Material, Method, PlaneState, Selector};
 
-use super::case::{Level, Mapped, Quantity, displacement, part};
-use crate::scenes::step;
-use crate::study::Part;
+use super::case::{Level, Mapped, Quantity, part};
+use crate::scenes::{displacement, step};
+use crate::study::{Part, Result};
 
 /// Length of column and beam, m.
 const LENGTH: f64 = 120.0;
@@ -21,7 +21,7 @@ const FORCE: f64 = 2.0;
 const STEPS: usize = 400;
 
 /// The limit loads and the drops of the loaded point there.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let quantity = |name, reference| Quantity {
         name,
         reference,
@@ -41,7 +41,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// Cells along column and beam.
-fn solve(cells: usize) -> Result<Level, String> {
+fn solve(cells: usize) -> Result<Level> {
     let mapped = Mapped::square([cells, 1], |s, t| {
         // From the line of the inner sides to that of the outer ones, which meet in a mitre.
         let (out, along) = (2.0 * t - 1.0, 2.0 * s);
@@ -55,8 +55,7 @@ fn solve(cells: usize) -> Result<Level, String> {
         .and_then(|body| body.fix(&Selector::Nodes(hinges)))
         .and_then(|body| body.force(&Selector::Nodes(vec![loaded]), [0.0, -FORCE / WIDTH, 0.0]));
     let method = Method { load_steps: 20, arc_length: true, ..Method::new(Integrator::Static, 1.0) };
-    let mut simulation =
-        body.and_then(|body| Simulator::<f64>::new(body, &method)).map_err(|refusal| refusal.to_string())?;
+    let mut simulation = body.and_then(|body| Simulator::<f64>::new(body, &method))?;
     let start = Instant::now();
     let mut path = vec![[0.0; 2]];
     while simulation.load_factor() != Some(1.0) && path.len() < STEPS {

@@ -14,7 +14,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::case::{Level, Quantity, part};
 use crate::scenes::step;
-use crate::study::{Mark, Part};
+use crate::study::{Mark, Part, Result};
 
 /// Inner and outer radius, m.
 const INNER: f64 = 1.0;
@@ -27,7 +27,7 @@ const DISTANCE: f64 = 4e-4;
 const STEPS: usize = 20;
 
 /// The pressure after the last step over the limit load.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let limit = 2.0 / 3f64.sqrt() * YIELD * (OUTER / INNER).ln();
     let of = Quantity { name: "pressure (Pa)", reference: limit, tolerance: 1e-2, source: "(2 σ_y/√3) ln(b/a)" };
     let text = "A quarter of a cylinder with radii of 1 and 2 m in plane strain, Hencky's law, E = 100 MPa, ν = 0.3, σ_y = 1000 Pa, volumetric = \"averaged\", on an unstructured mesh: \
@@ -44,18 +44,17 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// The level, and the relative growth of the pressure in the last step.
-fn solve(rings: usize) -> Result<(Level, f64), String> {
+fn solve(rings: usize) -> Result<(Level, f64)> {
     let sectors = 2 * rings;
     let mesh = BodyMesh::flat(quarter(rings, sectors), 1.0).of_order(2).ok_or("there is no such element")?;
     let x = mesh.vertices().to_vec();
     let edges: Vec<[usize; 2]> = (0..sectors).map(|j| [j * (rings + 1), (j + 1) * (rings + 1)]).collect();
     let inner = mesh.with_middles(edges.as_flattened().to_vec(), &edges, &[]);
     let material = Material { volumetric: Volumetric::Averaged, ..Material::new(Law::Hencky(ELASTIC), 1.0) };
-    let mut body = Body::new(mesh, material).map_err(|refusal| refusal.to_string())?;
+    let mut body = Body::new(mesh, material)?;
     body.plasticity = Some(Plasticity::J2 { yield_stress: YIELD, hardening: 0.0 });
     let prescribe = |body: Body, nodes: Vec<usize>, components: [bool; 3], by: Vector3<f64>| {
         body.prescribe(&Selector::Nodes(nodes), components, Motion::by(by.into()))
-            .map_err(|refusal| refusal.to_string())
     };
     for &node in &inner {
         body = prescribe(body, vec![node], [true, true, false], DISTANCE * x[node].normalize())?;
@@ -65,7 +64,7 @@ fn solve(rings: usize) -> Result<(Level, f64), String> {
         body = prescribe(body, on_axis, [axis == 0, axis == 1, false], Vector3::zeros())?;
     }
     let method = Method { load_steps: STEPS, ..Method::new(Integrator::Static, 1.0) };
-    let mut simulation = Simulator::<f64>::new(body, &method).map_err(|refusal| refusal.to_string())?;
+    let mut simulation = Simulator::<f64>::new(body, &method)?;
     // A uniform pressure does the work p A on outward displacements of 1 m, which sweep the area A: corners have a sixth of an edge's load each.
     let swept: f64 = edges
         .iter()

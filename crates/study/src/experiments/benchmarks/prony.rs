@@ -6,14 +6,12 @@ use std::time::Instant;
 
 use fem_engine::simulator::Simulator;
 use fem_model::simulation::{Diagnostics, Simulation};
-use fem_model::{
-    Axis, Body, Elastic, Integrator, Law, LoadCurve, Material, Method, Motion, PronyTerm, Selector, Viscosity,
-};
+use fem_model::{Axis, Elastic, Integrator, Law, LoadCurve, Material, Method, Motion, PronyTerm, Selector, Viscosity};
 use nalgebra::Vector3;
 
-use super::case::{CLOSED_FORM, Level, Mapped, Quantity, constrain, part};
+use super::case::{CLOSED_FORM, Level, Mapped, Quantity, part, supported};
 use crate::scenes::steps;
-use crate::study::Part;
+use crate::study::{Part, Result};
 
 /// Ratio and time (s) of each term.
 const TERMS: [[f64; 2]; 2] = [[0.5, 0.2], [0.3, 2.0]];
@@ -22,7 +20,7 @@ const ELASTIC: Elastic = Elastic { young: 1e5, poisson: 0.3 };
 const STRAIN: f64 = 1e-3;
 
 /// Stresses relative to those of the law, 1 + Σ g e^(−t/τ) after a sudden strain, 1 + Σ g τ/t (1 − e^(−t/τ)) at a constant rate.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let sum = |of: fn(f64) -> f64| 1.0 + TERMS.iter().map(|[ratio, time]| ratio * of(*time)).sum::<f64>();
     let quantity = |name, reference| Quantity { name, reference, tolerance: 1e-10, source: CLOSED_FORM };
     let of = [
@@ -50,17 +48,17 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// A cube on three symmetry planes, whose side x = 1 moves by a strain times a curve.
-fn bar(per_second: usize, curve: LoadCurve) -> Result<Simulator<f64>, String> {
+fn bar(per_second: usize, curve: LoadCurve) -> Result<Simulator<f64>> {
     let Mapped { mesh, places } = Mapped::cube([1; 3], |x| *x)?;
-    let body = Body::new(mesh, Material::new(Law::Linear(ELASTIC), 1.0)).map_err(|refusal| refusal.to_string())?;
-    let body = constrain(body, &places, |x| [x.x == 0.0, x.y == 0.0, x.z == 0.0])?;
+    let body =
+        supported(mesh, Material::new(Law::Linear(ELASTIC), 1.0), &places, |x| [x.x == 0.0, x.y == 0.0, x.z == 0.0])?;
     let motion = Motion { curve: Some(curve), ..Motion::by([STRAIN, 0.0, 0.0]) };
     let terms = TERMS.map(|[modulus_ratio, time]| PronyTerm { modulus_ratio, time });
     let body = body
         .prescribe(&Selector::most(Axis::X), [true, false, false], motion)
         .and_then(|body| body.field(Viscosity::new(terms.to_vec())));
     let method = Method::new(Integrator::Static, 1.0 / per_second as f64);
-    body.and_then(|body| Simulator::new(body, &method)).map_err(|refusal| refusal.to_string())
+    Ok(body.and_then(|body| Simulator::new(body, &method))?)
 }
 
 /// Stress of the side that moves, over that of the law.

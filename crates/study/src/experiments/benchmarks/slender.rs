@@ -9,8 +9,8 @@ use std::path::Path;
 use fem_model::{Body, Elastic, Law, Material, Refusal, Selector};
 use nalgebra::{Rotation3, Vector3};
 
-use super::case::{Level, Mapped, Quantity, constrain, equilibrium, part};
-use crate::study::Part;
+use super::case::{Level, Mapped, Quantity, equilibrium, part, supported};
+use crate::study::{Part, Result};
 
 const SOLID: &str = "27-node hexahedra";
 
@@ -19,7 +19,7 @@ fn quantity(name: &'static str, reference: f64, source: &'static str) -> Quantit
 }
 
 /// 6 × 0.2 × 0.1, E = 1e7, ν = 0.3.
-pub fn straight(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn straight(_: &Path, quick: bool) -> Result<Part> {
     let of = [
         quantity("along (m)", 3.0e-5, "beam theory; 2.996e-5 with 27-node hexahedra"),
         quantity("in the plane (m)", 0.1081, "beam theory; 0.1077 with 27-node hexahedra"),
@@ -46,7 +46,7 @@ pub fn straight(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// A quarter of a circle with radii of 4.12 and 4.32, 0.1 thick, E = 1e7, ν = 0.25.
-pub fn curved(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn curved(_: &Path, quick: bool) -> Result<Part> {
     let of = [quantity("radial (m)", 0.0885, SOLID), quantity("out of the plane (m)", 0.4978, SOLID)];
     let text = "A quarter of a circle, radii of 4.12 and 4.32 m, 0.1 m thick, E = 10 MPa, ν = 0.25. Beam theory, 0.0873 and 0.5022, is 1 % off for so thick a beam.";
     part(("mh-curved", text), &of, (&[1, 2, 3], 2), quick, |cells| {
@@ -61,7 +61,7 @@ pub fn curved(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// 12 long, 1.1 × 0.32, turned by 90° from end to end, E = 29e6, ν = 0.22.
-pub fn twisted(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn twisted(_: &Path, quick: bool) -> Result<Part> {
     let of = [
         quantity("along the tip's long side (m)", 0.005421, "27-node hexahedra; 0.005425, Zupan and Saje (2004)"),
         quantity("along its short side (m)", 0.001753, "27-node hexahedra; 0.001753, Zupan and Saje (2004)"),
@@ -79,12 +79,7 @@ pub fn twisted(_: &Path, quick: bool) -> Result<Part, String> {
 }
 
 /// Displacements of the end, whose area is given (m²), along unit forces on it.
-fn bent(
-    mapped: impl Fn() -> Result<Mapped, String>,
-    moduli: (f64, f64),
-    area: f64,
-    forces: &[Vector3<f64>],
-) -> Result<Level, String> {
+fn bent(mapped: impl Fn() -> Result<Mapped>, moduli: (f64, f64), area: f64, forces: &[Vector3<f64>]) -> Result<Level> {
     let mut level = Level { nodes: 0, values: Vec::new(), seconds: 0.0 };
     for force in forces {
         let mapped = mapped()?;
@@ -102,12 +97,11 @@ fn solve(
     Mapped { mesh, places }: Mapped,
     (young, poisson): (f64, f64),
     load: impl Fn(Body, Vec<usize>) -> Result<Body, Refusal>,
-) -> Result<(f64, f64), String> {
+) -> Result<(f64, f64)> {
     let end = (0..places.len()).filter(|&node| places[node].x == 1.0).collect();
     let material = Material::new(Law::Linear(Elastic::new(young, poisson)), 1.0);
-    let body = Body::new(mesh, material).map_err(|refusal| refusal.to_string())?;
-    let body = constrain(body, &places, |place| [place.x == 0.0; 3])?;
-    let body = load(body, end).map_err(|refusal| refusal.to_string())?;
+    let body = supported(mesh, material, &places, |place| [place.x == 0.0; 3])?;
+    let body = load(body, end)?;
     let (simulation, seconds) = equilibrium(body, 1)?;
     Ok((-2.0 * simulation.energies().potential, seconds))
 }

@@ -6,7 +6,7 @@ use fem_chart::{Axis, Chart, Dot, Guide, Series};
 
 use crate::runs::convergence_order::fit;
 use crate::space::manufactured::{label, orders, solve};
-use crate::study::{Mark, Part, Table};
+use crate::study::{Mark, Part, Result, Table};
 use fem_model::element::Element;
 
 const MODELS: [&str; 2] = ["linear", "neo_hookean"];
@@ -30,13 +30,13 @@ struct Level {
 }
 
 /// Solves on a sequence of meshes of the unit square.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let cells: &[usize] = if quick { &[4, 8, 16] } else { &[4, 8, 16, 32, 64] };
     let models = if quick { &MODELS[1..] } else { &MODELS };
     let (mut sequences, mut marks) = (Vec::new(), Vec::new());
     for &model in models {
         for element in Element::ALL.into_iter().filter(|element| element.dimension == 2) {
-            let levels = cells.iter().map(|&cells| level(model, element, cells)).collect::<Result<Vec<_>, _>>()?;
+            let levels = cells.iter().map(|&cells| level(model, element, cells)).collect::<Result<Vec<_>>>()?;
             let sequence = Sequence { model, element, levels };
             marks.extend((0..2).map(|norm| judge(&sequence, norm)));
             sequences.push(sequence);
@@ -52,7 +52,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     Ok(Part::new(text).marks(marks).tables([table(&sequences)]).chart("flat-convergence", &chart(&sequences), caption))
 }
 
-fn level(model: &str, element: &Element, cells: usize) -> Result<Level, String> {
+fn level(model: &str, element: &Element, cells: usize) -> Result<Level> {
     let solved = solve(model, element, cells)?;
     let nodes = solved.mesh.vertices().len();
     Ok(Level { spacing: 1.0 / cells as f64, nodes, errors: [solved.l2, solved.h1], seconds: solved.seconds })

@@ -6,12 +6,13 @@ use fem_chart::{Picture, grid};
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::PictureMesh;
 use fem_model::simulation::{Diagnostics, Simulation};
-use nalgebra::Vector2;
+use fem_model::{Body, Contact, ContactPlane, Damping, DampingForm, Integrator, Method};
+use nalgebra::{Vector2, Vector3};
 
-use super::object::{DENSITY, LAME, OBJECTS, meshed, picture, simulator};
+use super::object::{DENSITY, LAME, OBJECTS, body, meshed, picture};
 use crate::experiments::drawing::{Triangle, band, drawn, elements};
 use crate::scenes::step;
-use crate::study::{Figure, Mark, Part, Table};
+use crate::study::{Figure, Mark, Part, Result, Table};
 
 /// Length of the edges, m, for a height of 1 m.
 const EDGE: f64 = 0.1;
@@ -58,31 +59,21 @@ struct Fallen {
 }
 
 /// Drops each object.
-pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(data: &Path, quick: bool) -> Result<Part> {
     let objects = if quick { &OBJECTS[3..] } else { &OBJECTS[..] };
-    let fallen = objects.iter().map(|name| fall(data, name)).collect::<Result<Vec<_>, _>>()?;
+    let fallen = objects.iter().map(|name| fall(data, name)).collect::<Result<Vec<_>>>()?;
     let mut marks = Vec::new();
     for body in &fallen {
         let name = body.name;
-        let gap = Mark::new(
-            format!("{name}: no node behind a plane after any step"),
-            format!("smallest gap {:.1e} m", body.smallest_gap),
-            body.smallest_gap > 0.0,
-        );
+        let gap = format!("smallest gap {:.1e} m", body.smallest_gap);
         let rest = body.at_rest.map_or("not at rest".to_owned(), |time| format!("after {time:.2} s"));
+        let balanced = format!("{name}: the vertical forces of the planes are m g within 1e-6");
+        let settled = format!("{name}: the lag of friction has converged, its residual at most {LAG:e}");
         marks.extend([
-            gap,
+            Mark::new(format!("{name}: no node behind a plane after any step"), gap, body.smallest_gap > 0.0),
             Mark::new(format!("{name}: at rest within {DURATION} s"), rest, body.at_rest.is_some()),
-            Mark::new(
-                format!("{name}: the vertical forces of the planes are m g within 1e-6"),
-                format!("{:.1e}", body.balance[0]),
-                body.balance[0] <= BALANCE,
-            ),
-            Mark::new(
-                format!("{name}: the lag of friction has converged, its residual at most {LAG:e}"),
-                format!("{:.1e}", body.lag),
-                body.lag <= LAG,
-            ),
+            Mark::at_most(balanced, body.balance[0], BALANCE),
+            Mark::at_most(settled, body.lag, LAG),
         ]);
     }
     let text = format!(
@@ -105,16 +96,15 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
             (">residual of the lag", &|body| format!("{:.1e}", body.lag)),
         ],
     );
-    let caption = format!("The bodies after {DURATION} s.");
-    let figure = Figure { name: "flat-drop".to_owned(), picture: pictures(&fallen)?, caption };
+    let figure = Figure::new("flat-drop", pictures(&fallen)?, format!("The bodies after {DURATION} s."));
     Ok(Part::new(text).marks(marks).tables([table]).figures([figure]))
 }
 
-fn fall(data: &Path, name: &'static str) -> Result<Fallen, String> {
+fn fall(data: &Path, name: &'static str) -> Result<Fallen> {
     let mesh = meshed(&picture(data, name)?, EDGE, 5)?;
     let centre = centre(&mesh);
-    let method = format!("integrator = \"implicit_euler\"\ndt = {:e}", 1.0 / FRAMES);
-    let mut simulation = simulator(&mesh.mesh, LAME, &method, &tables(centre))?;
+    let method = Method::new(Integrator::ImplicitEuler, 1.0 / FRAMES);
+    let mut simulation = Simulator::<f64>::new(falling(&mesh, centre, &method)?, &method)?;
     let area: f64 = simulation.shape().mesh.volumes().iter().sum();
     let weight = DENSITY * area * GRAVITY;
     let (mut smallest_gap, mut at_rest, mut balance) = (f64::INFINITY, None, [f64::INFINITY; 2]);
@@ -158,24 +148,21 @@ fn centre(mesh: &PictureMesh) -> Vector2<f64> {
     Vector2::new(0.5 * (low.x + high.x), low.y - HEIGHT + OFFSET)
 }
 
-fn tables(centre: Vector2<f64>) -> String {
+/// The body under its weight between the planes.
+fn falling(mesh: &PictureMesh, centre: Vector2<f64>, method: &Method) -> Result<Body> {
     let plane = |normal: &[f64; 2]| {
         let point = centre - OFFSET / 5.0 * Vector2::from(*normal);
-        format!(
-            "[[planes]]\npoint = [{:e}, {:e}, 0]\nnormal = [{}, {}, 0]\nfriction = {FRICTION}\n",
-            point.x, point.y, normal[0], normal[1]
-        )
+        let plane = ContactPlane::new(point.push(0.0), Vector3::new(normal[0], normal[1], 0.0));
+        ContactPlane { friction: FRICTION, ..plane }
     };
-    let planes: String = NORMALS.iter().map(plane).collect();
-    format!(
-        "[gravity]\nacceleration = [0, -{GRAVITY}, 0]\n[damping]\nalpha = {DRAG}\nbeta = {:e}\n\
-         [contact]\ntransition_speed = {TRANSITION:e}\n{planes}",
-        DAMPING / LAME
-    )
+    let damping = Damping { alpha: DRAG, beta: DAMPING / LAME, form: DampingForm::default() };
+    let body = body(&mesh.mesh, LAME, 0.0)?.gravity([0.0, -GRAVITY, 0.0])?.damping(damping)?;
+    let contact = body.contact_with(NORMALS.iter().map(plane).collect(), method)?;
+    Ok(Body { contact: Some(Contact { transition_speed: TRANSITION, ..contact }), ..body })
 }
 
 /// The bodies one after the other, to one scale.
-fn pictures(fallen: &[Fallen]) -> Result<Picture, String> {
+fn pictures(fallen: &[Fallen]) -> Result<Picture> {
     let picture = |body: &Fallen| {
         let [left, right] = [body.planes[1], body.planes[2]];
         let ways = body.planes.windows(2).flat_map(|ends| band(ends[0], ends[1], 0.04));
@@ -183,6 +170,6 @@ fn pictures(fallen: &[Fallen]) -> Result<Picture, String> {
         let corner = |x: Vector2<f64>, dx: f64, dy: f64| [x.x + dx, x.y + dy, 0.0];
         drawn(body.name, &shown, [corner(left, -0.3, -0.05), corner(right, 0.3, 1.1)])
     };
-    let all = fallen.iter().map(picture).collect::<Result<Vec<_>, _>>()?;
+    let all = fallen.iter().map(picture).collect::<Result<Vec<_>>>()?;
     Ok(grid("bodies at rest between three planes", 2, &all))
 }

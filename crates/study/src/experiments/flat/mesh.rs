@@ -1,19 +1,21 @@
-//! Quality of the triangles of the five objects in each iteration of optimal Delaunay triangulation.
-
-mod start;
+//! Quality of the triangles of the five objects in each iteration of optimal Delaunay triangulation, also from a plain start: scattered points, as
+//! in the thesis' figures 4.9 to 4.11.
 
 use std::collections::HashSet;
 use std::path::Path;
 
-use fem_chart::{Axis, Chart, Dot, Guide, Series};
-use fem_mesh::generate::odt::OdtStep;
+use fem_chart::{Axis, Chart, Dot, Guide, Picture as Drawing, Series, distribution, grid, region};
+use fem_mesh::generate::delaunay::triangulate;
+use fem_mesh::generate::odt::{OdtStep, improve_triangles};
 use fem_mesh::generate::picture::PictureMesh;
-use fem_mesh::{Mesh, triangle_quality};
+use fem_mesh::{Mesh, SurfaceMesh, triangle_distributions, triangle_quality};
 use nalgebra::Vector2;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 use super::object::{OBJECTS, meshed, picture};
-use crate::study::{Mark, Part, Table};
-use start::smoothed;
+use crate::experiments::drawing::{CELL, Triangle, drawn};
+use crate::study::{Figure, Mark, Part, Result, Table};
 
 /// Iterations that are shown.
 const ITERATIONS: usize = 20;
@@ -23,7 +25,7 @@ const EDGE: f64 = 0.02;
 const THEIRS: usize = 7;
 
 /// Meshes each object with 20 iterations.
-pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(data: &Path, quick: bool) -> Result<Part> {
     let objects = if quick { &OBJECTS[2..3] } else { &OBJECTS[..] };
     let (mut rows, mut marks, mut series) = (Vec::new(), Vec::new(), Vec::new());
     let (mut from_scattered, mut figures) = (Vec::new(), Vec::new());
@@ -137,4 +139,116 @@ fn distance(x: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> f64 {
     let side = b - a;
     let share = ((x - a).dot(&side) / side.norm_squared().max(1e-300)).clamp(0.0, 1.0);
     (x - a - share * side).norm()
+}
+
+/// Length of the edges, m, for a height of 1 m.
+const SCATTERED_EDGE: f64 = 0.06;
+/// Twice the area of a triangle of the boundary's points alone, over the square of an edge, up to which it is flat.
+const FLAT: f64 = 1e-6;
+
+/// An object whose inner vertices were scattered at random.
+struct Smoothed {
+    name: &'static str,
+    contours: Vec<Vec<Vector2<f64>>>,
+    /// The Delaunay triangulation, and the mesh after the thesis' seven iterations.
+    start: Mesh<2, 3>,
+    seventh: Mesh<2, 3>,
+    /// Measures of all iterations.
+    steps: Vec<OdtStep>,
+}
+
+/// Triangulates an object's boundary and as many scattered points inside as its mesh has, and smooths the result.
+fn smoothed(data: &Path, name: &'static str) -> Result<Smoothed> {
+    let found = meshed(&picture(data, name)?, SCATTERED_EDGE, 0)?;
+    let start = scattered(&found.mesh, &found.contours)?;
+    let improved = |iterations| improve_triangles(&start, iterations).map_err(|error| format!("{name}: {error}"));
+    let (seventh, steps) = (improved(THEIRS)?.mesh, improved(ITERATIONS)?.steps);
+    Ok(Smoothed { name, contours: found.contours, start, seventh, steps })
+}
+
+/// The Delaunay triangulation of a mesh's boundary and of as many points inside as the mesh has, scattered evenly.
+fn scattered(mesh: &Mesh<2, 3>, contours: &[Vec<Vector2<f64>>]) -> Result<Mesh<2, 3>> {
+    let edges = boundary(mesh);
+    let mut points: Vec<Vector2<f64>> = edges.iter().map(|edge| edge[0]).collect();
+    let largest = mesh.vertices.iter().fold(Vector2::zeros(), |a: Vector2<f64>, x| a.sup(x));
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    while points.len() < mesh.vertices.len() {
+        let x = Vector2::new(random.random::<f64>() * largest.x, random.random::<f64>() * largest.y);
+        // In no circle around an edge of the boundary, so that the triangulation has all of these edges.
+        let is_free = edges.iter().all(|[a, b]| (x - 0.5 * (a + b)).norm() > 0.5 * (a - b).norm());
+        if is_free && is_inside(x, contours) {
+            points.push(x);
+        }
+    }
+    let Mesh { vertices, mut elements, .. } = triangulate(&points)?.mesh;
+    elements.retain(|triangle| {
+        let [a, b, c] = triangle.map(|i| vertices[i]);
+        // Points on a straight part of the boundary have triangles without area.
+        (b - a).perp(&(c - a)) > FLAT * SCATTERED_EDGE * SCATTERED_EDGE && is_inside((a + b + c) / 3.0, contours)
+    });
+    Ok(Mesh::new(vertices, elements))
+}
+
+/// Returns true if a horizontal ray from the point crosses the closed lines an odd number of times.
+fn is_inside(x: Vector2<f64>, lines: &[Vec<Vector2<f64>>]) -> bool {
+    let crosses = |a: Vector2<f64>, b: Vector2<f64>| {
+        (a.y > x.y) != (b.y > x.y) && x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    let of_line =
+        |line: &Vec<Vector2<f64>>| (0..line.len()).filter(|&i| crosses(line[i], line[(i + 1) % line.len()])).count();
+    lines.iter().map(of_line).sum::<usize>() % 2 == 1
+}
+
+impl Smoothed {
+    /// Statements that must be true of it.
+    fn marks(&self) -> [Mark; 2] {
+        let name = self.name;
+        let (first, seventh) = (self.steps[0], self.steps[THEIRS.min(self.steps.len() - 1)]);
+        let falls = self.steps.windows(2).all(|pair| pair[1].energy <= pair[0].energy * (1.0 + 1e-12));
+        let kept = [&self.start, &self.seventh].map(|mesh| mesh.elements.len());
+        let [worst, median] = [
+            [first, seventh].map(|step| step.worst_radius_to_edge),
+            [first, seventh].map(|step| step.median_radius_to_edge),
+        ];
+        let both = "the energy falls in every iteration, and no triangle is left out";
+        let told = format!("{:.2} → {:.2}, median {:.3} → {:.3}", worst[0], worst[1], median[0], median[1]);
+        let fallen = format!("{name}, from scattered points: the worst R/l falls in {THEIRS} iterations");
+        [
+            Mark::new(
+                format!("{name}, from scattered points: {both}"),
+                format!("{} and {} triangles", kept[0], kept[1]),
+                falls && kept[0] == kept[1],
+            ),
+            Mark::new(fallen, told, worst[1] < worst[0]),
+        ]
+    }
+
+    /// The picture, the start and the seventh iteration, with histograms of R/l below.
+    fn figure(&self) -> Result<Figure> {
+        let lines: Vec<Vec<[f64; 2]>> =
+            self.contours.iter().map(|line| line.iter().map(|x| (*x).into()).collect()).collect();
+        let (mut parts, mut histograms) = (vec![region("the picture", &lines).scaled(CELL)], Vec::new());
+        for (label, mesh) in [("Delaunay triangulation", &self.start), ("after 7 iterations", &self.seventh)] {
+            let surface = SurfaceMesh::new(mesh.vertices.iter().map(|x| x.push(0.0)).collect(), mesh.elements.clone());
+            let triangles: Vec<Triangle> =
+                surface.elements.iter().map(|triangle| triangle.map(|i| surface.vertices[i].into())).collect();
+            let origin = surface.vertices[0].into();
+            parts.push(drawn(label, &triangles, [origin, origin])?);
+            histograms.push(histogram(&format!("R/l: {label}"), &surface).scaled(CELL));
+        }
+        parts.push(grid("", 1, &histograms));
+        let caption = format!(
+            "{}: boundary points and scattered ones, smoothed from their plain Delaunay triangulation; R/l of its triangles.",
+            self.name
+        );
+        Ok(Figure::new(format!("flat-mesh-{}", self.name), grid(self.name, 2, &parts), caption))
+    }
+}
+
+/// A histogram of circumradius over shortest edge. Every second end of a bin is written.
+fn histogram(label: &str, mesh: &SurfaceMesh) -> Drawing {
+    let Some(ratios) = triangle_distributions(mesh).pop() else { return distribution(label, &[], &[]) };
+    let counts = ratios.counts();
+    let ends = (0..counts.len()).map(|bin| if bin % 2 == 1 { ratios.ends(bin)[0].clone() } else { String::new() });
+    distribution(label, &ends.collect::<Vec<_>>(), &counts)
 }

@@ -5,9 +5,9 @@ use std::path::Path;
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::{FromPicture, Picture, PictureMesh, mesh_picture, read_picture};
 use fem_mesh::{Mesh, SurfaceMesh};
-use fem_model::BodyMesh;
+use fem_model::{Body, BodyMesh, Damping, DampingForm, Elastic, Integrator, Law, Material, Method};
 
-use crate::scenes::double;
+use crate::study::Result;
 
 /// The objects, each a picture in `data/pictures`.
 pub const OBJECTS: [&str; 5] = ["donut", "armadillo", "bunny", "triangle", "square"];
@@ -17,25 +17,36 @@ pub const DENSITY: f64 = 140.5;
 pub const LAME: f64 = 45_000.0;
 
 /// The picture of an object.
-pub fn picture(data: &Path, name: &str) -> Result<Picture, String> {
-    read_picture(&data.join(format!("pictures/{name}.png"))).map_err(|error| error.to_string())
+pub fn picture(data: &Path, name: &str) -> Result<Picture> {
+    Ok(read_picture(&data.join(format!("pictures/{name}.png")))?)
 }
 
 /// Triangles of a picture for a height of 1 m.
-pub fn meshed(picture: &Picture, edge: f64, improve: usize) -> Result<PictureMesh, String> {
-    mesh_picture(picture, FromPicture { edge, height: 1.0, improve }).map_err(|error| error.to_string())
+pub fn meshed(picture: &Picture, edge: f64, improve: usize) -> Result<PictureMesh> {
+    Ok(mesh_picture(picture, FromPicture { edge, height: 1.0, improve })?)
 }
 
-/// A corotated body of 1 m thickness with λ = μ, which has ν = 1/4 and E = 2.5 μ; its mass is lumped.
-pub fn simulator(mesh: &Mesh<2, 3>, lame: f64, method: &str, rest: &str) -> Result<Simulator<f64>, String> {
-    let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"corotated\"\n\
-         young = {:e}\npoisson = 0.25\ndensity = {DENSITY}\n[time]\n{method}\n[mass]\nlumped = true\n{rest}",
-        2.5 * lame
-    );
+/// The corotated law with λ = μ, Pa, which has ν = 1/4 and E = 2.5 μ, and the density of the thesis.
+pub fn material(lame: f64) -> Material {
+    Material::new(Law::Corotated(Elastic::new(2.5 * lame, 0.25)), DENSITY)
+}
+
+/// A body of 1 m thickness with λ = μ and a damping of β, s; its mass is lumped.
+pub fn body(mesh: &Mesh<2, 3>, lame: f64, beta: f64) -> Result<Body> {
     let vertices = mesh.vertices.iter().map(|x| x.push(0.0)).collect();
     let triangles = SurfaceMesh::new(vertices, mesh.elements.clone());
-    double(&text, Some(BodyMesh::flat(triangles, 1.0)))
+    let body = Body::new(BodyMesh::flat(triangles, 1.0), material(lame))?;
+    let body = body.damping(Damping { alpha: 0.0, beta, form: DampingForm::default() })?;
+    Ok(Body { lumped_mass: true, ..body })
+}
+
+/// The simulation of such a body by a method with steps of `dt`, s.
+pub fn simulator(
+    mesh: &Mesh<2, 3>,
+    (lame, beta): (f64, f64),
+    (integrator, dt): (Integrator, f64),
+) -> Result<Simulator<f64>> {
+    Ok(Simulator::new(body(mesh, lame, beta)?, &Method::new(integrator, dt))?)
 }
 
 /// Displacements of a few parts in a million of the height in which every vibration takes part: multiples of the golden ratio, modulo 1.

@@ -5,10 +5,10 @@ use std::path::Path;
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
 use fem_mesh::volumes;
 
-use super::setting::{BETA, DT, DURATION, LAWS, Setting, difference, displacements, equilibrium, squash};
+use super::setting::{BETA, DT, DURATION, LAWS, Setting, difference, equilibrium, squash};
 use super::torus::{Torus, sizes};
-use crate::scenes::step;
-use crate::study::{Mark, Part, Table};
+use crate::scenes::{displacements, step};
+use crate::study::{Mark, Part, Result, Table};
 
 /// Distance from equilibrium, over the diameter, at which a motion has ended, and the time (s) at which it must have.
 const ENDED: f64 = 1e-8;
@@ -35,9 +35,9 @@ struct Found {
 }
 
 /// Runs every size until its motion has ended.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let chosen = if quick { vec![182] } else { sizes() };
-    let found = chosen.into_iter().map(|wanted| ended(Torus::of_size(wanted)?)).collect::<Result<Vec<_>, _>>()?;
+    let found = chosen.into_iter().map(|wanted| ended(Torus::of_size(wanted)?)).collect::<Result<Vec<_>>>()?;
     let finest = found.iter().map(|of| of.torus.edge).fold(f64::INFINITY, f64::min);
     let finer = if quick { 2.0 } else { 4.0 };
     let reference = Torus::of_edge(finest / finer)?;
@@ -53,11 +53,8 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     );
     let marks = found.iter().flat_map(marks).chain(near(&found, &error));
     let caption = "Part of the flexibility that a mesh lacks.";
-    Ok(Part::new(text).marks(marks).tables([table(&found, &error)]).chart(
-        "rtfem-error",
-        &chart(&found, &error),
-        caption,
-    ))
+    let part = Part::new(text).marks(marks).tables([table(&found, &error)]);
+    Ok(part.chart("rtfem-error", &chart(&found, &error), caption))
 }
 
 /// Part of the distance that is left after 15 s: the mass is negligible, so that β K u̇ + K u = f.
@@ -66,10 +63,9 @@ fn closed_form() -> f64 {
 }
 
 /// Steps a torus until its distance from equilibrium is below [`ENDED`].
-fn ended(torus: Torus) -> Result<Found, String> {
+fn ended(torus: Torus) -> Result<Found> {
     let at_rest = vec![nalgebra::Vector3::zeros(); torus.mesh.vertices.len()];
-    let states =
-        LAWS.iter().map(|law| equilibrium(&Setting::of_law(law), &torus.mesh)).collect::<Result<Vec<_>, _>>()?;
+    let states = LAWS.iter().map(|law| equilibrium(&Setting::of_law(law), &torus.mesh)).collect::<Result<Vec<_>>>()?;
     let goal = &states[0];
     let mut simulation = Setting::default().torus(&torus.mesh)?;
     let mut remainder = f64::NAN;

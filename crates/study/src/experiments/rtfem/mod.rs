@@ -1,7 +1,5 @@
 //! The experiment of a thesis on real-time finite elements (2018): a torus, squashed between two opposite sides.
 
-mod block;
-mod dense;
 mod equilibrium;
 mod materials;
 mod methods;
@@ -13,9 +11,7 @@ mod precision;
 mod setting;
 mod slivers;
 mod speed;
-mod steps;
 mod structures;
-mod timing;
 mod torus;
 
 use super::Collection;

@@ -3,12 +3,15 @@
 use std::path::Path;
 
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
+use fem_engine::simulator::Simulator;
+use fem_model::Axis::X;
 use fem_model::simulation::Simulation;
+use fem_model::{Body, Damping, DampingForm, Integrator, IterationSettings, Method, Selector};
 
 use super::methods::block;
 use super::setting::one_thread;
-use crate::scenes::{simulation, step};
-use crate::study::{Figure, Mark, Part, Table};
+use crate::scenes::{SPRINGS, material, step};
+use crate::study::{Figure, Mark, Part, Result, Table, pairs};
 
 /// Length of the bar, m; its cross-section is 1 m².
 const LENGTH: f64 = 2.0;
@@ -28,13 +31,13 @@ const LONGEST: f64 = 30.0;
 /// Deviation of the modulus of a converged method.
 const CONVERGED: f64 = 1e-3;
 
-/// Methods: name, integrator, keys of `[iterations]`.
-const METHODS: [(&str, &str, &str); 5] = [
-    ("PBD", "pbd", ""),
-    ("XPBD", "xpbd", ""),
-    ("XPBD, no residual", "xpbd", "residual = false\n"),
-    ("VBD", "vbd", ""),
-    ("PD", "projective_dynamics", ""),
+/// Methods: name, integrator, and whether XPBD keeps the residual.
+const METHODS: [(&str, Integrator, bool); 5] = [
+    ("PBD", Integrator::Pbd, true),
+    ("XPBD", Integrator::Xpbd, true),
+    ("XPBD, no residual", Integrator::Xpbd, false),
+    ("VBD", Integrator::Vbd, true),
+    ("PD", Integrator::ProjectiveDynamics, true),
 ];
 
 /// A bar at rest with some iterations a step.
@@ -49,19 +52,14 @@ struct Hung {
 }
 
 /// Hangs a bar with every method, number of iterations and time step.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let Ranges { youngs, rates } = ranges(quick);
     let (mut found, mut springs) = (Vec::new(), Vec::new());
     for (young, counts) in &youngs {
         let exact = equilibrium(*young, "corotated")?;
-        springs.push((*young, exact / equilibrium(*young, "mass_spring")?));
-        for method in 0..METHODS.len() {
-            for &rate in rates {
-                for &iterations in *counts {
-                    let hung = || hung(method, *young, (rate, iterations), exact);
-                    found.push(one_thread()?.install(hung)?);
-                }
-            }
+        springs.push((*young, exact / equilibrium(*young, SPRINGS)?));
+        for ((method, &rate), &iterations) in pairs(pairs(0..METHODS.len(), rates), *counts) {
+            found.push(one_thread()?.install(|| hung(method, *young, (rate, iterations), exact))?);
         }
     }
     let text = format!(
@@ -95,16 +93,14 @@ fn ranges(quick: bool) -> Ranges {
     }
 }
 
-/// The bar in words; its weight strains it by [`STRAIN`] in the mean.
-fn bar(young: f64, model: &str, (integrator, time): (&str, &str), tables: &str) -> Result<Box<dyn Simulation>, String> {
+/// The bar; its weight strains it by [`STRAIN`] in the mean.
+fn bar(young: f64, law: &str) -> Result<Body> {
     let gravity = 2.0 * STRAIN * young / (DENSITY * LENGTH);
-    let poisson = if model == "mass_spring" { "" } else { "poisson = 0.25\n" };
-    let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n\
-         {poisson}density = {DENSITY}\n[mass]\nlumped = true\n[gravity]\nacceleration = [{gravity:e}, 0, 0]\n[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n\
-         {tables}[time]\nintegrator = \"{integrator}\"\n{time}"
-    );
-    simulation(&text, block(CELLS, LENGTH / CELLS[0] as f64))
+    let mesh = block(CELLS, LENGTH / CELLS[0] as f64);
+    let body = Body::new(mesh, material(law, young, 0.25, DENSITY)?)?
+        .gravity([gravity, 0.0, 0.0])?
+        .fix(&Selector::least(X))?;
+    Ok(Body { lumped_mass: true, ..body })
 }
 
 /// Mean displacement of the free end along the bar, m.
@@ -116,20 +112,23 @@ fn extension(simulation: &dyn Simulation) -> f64 {
 }
 
 /// Extension in equilibrium, m.
-fn equilibrium(young: f64, model: &str) -> Result<f64, String> {
-    let mut simulation = bar(young, model, ("static", ""), "")?;
-    step(&mut *simulation)?;
-    Ok(extension(&*simulation))
+fn equilibrium(young: f64, law: &str) -> Result<f64> {
+    let mut simulation = Simulator::<f64>::new(bar(young, law)?, &Method::new(Integrator::Static, 1.0))?;
+    step(&mut simulation)?;
+    Ok(extension(&simulation))
 }
 
 /// Steps a bar until it is at rest. Its damping is critical for the slowest vibration, a bending one: the frequency of a clamped beam of
 /// square cross-section, whose first root is 1.875.
-fn hung(method: usize, young: f64, (rate, iterations): (usize, usize), exact: f64) -> Result<Hung, String> {
-    let (name, integrator, keys) = METHODS[method];
+fn hung(method: usize, young: f64, (rate, iterations): (usize, usize), exact: f64) -> Result<Hung> {
+    let (name, integrator, residual) = METHODS[method];
     let slowest = 1.875f64.powi(2) / LENGTH.powi(2) * (young / DENSITY / 12.0).sqrt();
-    let tables = format!("[iterations]\ncount = {iterations}\n{keys}[damping]\nalpha = {:e}\n", 2.0 * slowest);
-    let time = format!("dt = {:e}\n", 1.0 / rate as f64);
-    let mut simulation = bar(young, "corotated", (integrator, &time), &tables)?;
+    let damping = Damping { alpha: 2.0 * slowest, beta: 0.0, form: DampingForm::default() };
+    let settings = Method {
+        iterations: IterationSettings { count: iterations, residual, ..IterationSettings::default() },
+        ..Method::new(integrator, 1.0 / rate as f64)
+    };
+    let mut simulation = Simulator::<f64>::new(bar(young, "corotated")?.damping(damping)?, &settings)?;
     let mut is_still = false;
     for _ in 0..(LONGEST * rate as f64) as usize {
         simulation.step().map_err(|failure| format!("{name}: {failure}"))?;
@@ -138,23 +137,20 @@ fn hung(method: usize, young: f64, (rate, iterations): (usize, usize), exact: f6
             break;
         }
     }
-    Ok(Hung { method, young, rate, iterations, modulus: exact / extension(&*simulation), is_still })
+    Ok(Hung { method, young, rate, iterations, modulus: exact / extension(&simulation), is_still })
 }
 
 fn marks(found: &[Hung]) -> Vec<Mark> {
     let of = |name: &'static str| found.iter().filter(move |hung| METHODS[hung.method].0 == name);
     let soft = |name| of(name).filter(|hung| hung.young == SOFT);
-    let mut marks: Vec<Mark> = ["XPBD", "VBD", "PD"]
-        .map(|name| {
-            let most = soft(name).map(|hung| hung.iterations).max().unwrap_or_default();
-            let last = soft(name).filter(|hung| hung.iterations == most);
-            let apart = last.map(|hung| (hung.modulus - 1.0).abs()).fold(0.0, f64::max);
-            let statement = format!(
-                "{name}: with {most} iterations the bar of E = {SOFT:e} Pa has its modulus within {CONVERGED:e}"
-            );
-            Mark::new(statement, format!("{apart:.1e}"), apart <= CONVERGED)
-        })
-        .into();
+    let converged = |name| {
+        let most = soft(name).map(|hung| hung.iterations).max().unwrap_or_default();
+        let last = soft(name).filter(|hung| hung.iterations == most);
+        let apart = last.map(|hung| (hung.modulus - 1.0).abs()).fold(0.0, f64::max);
+        let bar = format!("{name}: with {most} iterations the bar of E = {SOFT:e} Pa");
+        Mark::at_most(format!("{bar} has its modulus within {CONVERGED:e}"), apart, CONVERGED)
+    };
+    let mut marks: Vec<Mark> = ["XPBD", "VBD", "PD"].map(converged).into();
     let ends = |(a, b): (f64, f64), x: f64| (a.min(x), b.max(x));
     let (least, largest) = soft("PBD").map(|hung| hung.modulus).fold((f64::INFINITY, 0.0), ends);
     marks.push(Mark::new(
@@ -180,17 +176,8 @@ fn table(found: &[Hung]) -> Table {
         let name = [format!("{:e}", first.young), format!("1/{}", first.rate), first.iterations.to_string()];
         name.into_iter().chain(found.iter().filter(is_same).map(cell)).collect()
     };
-    let head = [
-        ">E (Pa)",
-        ">dt (s)",
-        ">iterations a step",
-        ">PBD, over E",
-        ">XPBD, over E",
-        ">XPBD without residual, over E",
-        ">VBD, over E",
-        ">PD, over E",
-    ];
-    Table::new("rtfem-modulus", &head, found.iter().filter(|hung| hung.method == 0).map(row).collect())
+    let head = ">E (Pa) | >dt (s) | >iterations a step | >PBD, over E | >XPBD, over E | >XPBD without residual, over E | >VBD, over E | >PD, over E";
+    Table::new("rtfem-modulus", head, found.iter().filter(|hung| hung.method == 0).map(row).collect())
 }
 
 /// Every method at the usual time step, PBD at all of them.
@@ -212,9 +199,6 @@ fn figure(found: &[Hung], young: f64) -> Figure {
         }
     }
     chart.guides.push(Guide::Horizontal(1.0, "the modulus of the material".to_owned()));
-    Figure {
-        name: format!("rtfem-modulus-{young:e}"),
-        picture: chart.draw(),
-        caption: format!("A hanging bar at rest, E = {young:e} Pa: its apparent modulus over E."),
-    }
+    let caption = format!("A hanging bar at rest, E = {young:e} Pa: its apparent modulus over E.");
+    Figure::new(format!("rtfem-modulus-{young:e}"), chart.draw(), caption)
 }

@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
+use fem_engine::simulator::Simulator;
 use fem_mesh::TetrahedralMesh;
 use fem_model::simulation::Simulation;
+use fem_model::{Body, Integrator, IterationSettings, Method};
 use nalgebra::Vector3;
 
-use super::methods::block;
-use crate::scenes::simulation;
-use crate::study::{Mark, Part, Table};
+use super::methods::{LAW, block};
+use crate::scenes::{SPRINGS, material, spinning};
+use crate::study::{Mark, Part, Result, Table};
 
 pub const DENSITY: f64 = 1000.0;
 const CELLS: [usize; 3] = [4, 2, 2];
@@ -44,36 +46,38 @@ impl Promise {
     }
 }
 
-/// Methods: name, model, integrator, tables, promise.
-type Method = (&'static str, &'static str, &'static str, &'static str, Promise);
+/// Methods: name, law, integrator, settings of its iterations, promise.
+type Row = (&'static str, &'static str, Integrator, IterationSettings, Promise);
 
-const METHODS: [Method; 13] = [
-    ("Verlet", "corotated", "verlet", "", Promise::Both),
-    ("springs, Verlet", "mass_spring", "verlet", "", Promise::Both),
-    ("springs, Newton", "mass_spring", "implicit_euler", "", Promise::Linear),
-    ("Newton", "corotated", "implicit_euler", "", Promise::Linear),
-    ("linearly implicit", "corotated", "linearly_implicit_euler", "", Promise::Linear),
-    ("PBD, 5 sweeps", "corotated", "pbd", "[iterations]\ncount = 5\n", Promise::Linear),
-    ("XPBD, 1 sweep", "corotated", "xpbd", "[iterations]\ncount = 1\n", Promise::Linear),
-    ("XPBD, 5 sweeps", "corotated", "xpbd", "[iterations]\ncount = 5\n", Promise::Linear),
+/// So many iterations a step.
+const fn sweeps(count: usize) -> IterationSettings {
+    let (tolerance, acceleration) = (None, None);
+    IterationSettings { count, tolerance, acceleration, stiffness: 1.0, residual: true, accept_unconverged: false }
+}
+
+const METHODS: [Row; 13] = [
+    ("Verlet", LAW, Integrator::Verlet, sweeps(1), Promise::Both),
+    ("springs, Verlet", SPRINGS, Integrator::Verlet, sweeps(1), Promise::Both),
+    ("springs, Newton", SPRINGS, Integrator::ImplicitEuler, sweeps(1), Promise::Linear),
+    ("Newton", LAW, Integrator::ImplicitEuler, sweeps(1), Promise::Linear),
+    ("linearly implicit", LAW, Integrator::LinearlyImplicitEuler, sweeps(1), Promise::Linear),
+    ("PBD, 5 sweeps", LAW, Integrator::Pbd, sweeps(5), Promise::Linear),
+    ("XPBD, 1 sweep", LAW, Integrator::Xpbd, sweeps(1), Promise::Linear),
+    ("XPBD, 5 sweeps", LAW, Integrator::Xpbd, sweeps(5), Promise::Linear),
     (
         "XPBD, no residual, 5 sweeps",
-        "corotated",
-        "xpbd",
-        "[iterations]\ncount = 5\nresidual = false\n",
+        LAW,
+        Integrator::Xpbd,
+        IterationSettings { residual: false, ..sweeps(5) },
         Promise::Linear,
     ),
-    ("PD, 5 rounds", "corotated", "projective_dynamics", "[iterations]\ncount = 5\n", Promise::Linear),
-    ("VBD, 1 sweep", "corotated", "vbd", "[iterations]\ncount = 1\n", Promise::Nothing),
-    ("VBD, 5 sweeps", "corotated", "vbd", "[iterations]\ncount = 5\n", Promise::Nothing),
-    (
-        "VBD, iterated until nothing changes",
-        "corotated",
-        "vbd",
-        "[iterations]\ncount = 5000\ntolerance = 1e-13\n",
-        Promise::Converged,
-    ),
+    ("PD, 5 rounds", LAW, Integrator::ProjectiveDynamics, sweeps(5), Promise::Linear),
+    ("VBD, 1 sweep", LAW, Integrator::Vbd, sweeps(1), Promise::Nothing),
+    ("VBD, 5 sweeps", LAW, Integrator::Vbd, sweeps(5), Promise::Nothing),
+    ("VBD, iterated until nothing changes", LAW, Integrator::Vbd, UNTIL_SETTLED, Promise::Converged),
 ];
+
+const UNTIL_SETTLED: IterationSettings = IterationSettings { tolerance: Some(1e-13), ..sweeps(5000) };
 
 /// Relative changes of momentum and angular momentum.
 struct Drift {
@@ -82,8 +86,8 @@ struct Drift {
 }
 
 /// A free beam flies and turns for a second.
-pub fn run(_: &Path, _: bool) -> Result<Part, String> {
-    let found = METHODS.iter().map(|method| Ok((method, drift(method)?))).collect::<Result<Vec<_>, String>>()?;
+pub fn run(_: &Path, _: bool) -> Result<Part> {
+    let found = METHODS.iter().map(|method| Ok((method, drift(method)?))).collect::<Result<Vec<_>>>()?;
     let text = format!(
         "A free beam of 2 × 1 × 1 m (corotated law or springs, E = 1e5 Pa, lumped mass) flies at 1 m/s and turns at 2 rad/s for {STEPS} steps of 1/{RATE} s. Changes are those of \
          Σ m v over Σ m |v| and of Σ m x × v over its size. Sweeps of PBD and XPBD move nodes by equal and opposite impulses, and PD sets the mean of a free body right \
@@ -103,7 +107,7 @@ pub fn run(_: &Path, _: bool) -> Result<Part, String> {
     Ok(Part::new(text).marks(found.iter().map(|(method, drift)| mark(method, drift))).tables([table]))
 }
 
-fn mark((name, .., promise): &Method, drift: &Drift) -> Mark {
+fn mark((name, .., promise): &Row, drift: &Drift) -> Mark {
     let Drift { linear, angular } = *drift;
     let (text, holds) = match promise {
         Promise::Both => (format!("keeps both within {KEPT:e}"), linear <= KEPT && angular <= KEPT),
@@ -114,22 +118,18 @@ fn mark((name, .., promise): &Method, drift: &Drift) -> Mark {
     Mark::new(format!("{name}: {text}"), format!("{linear:.1e}, angular {angular:.1e}"), holds)
 }
 
-fn drift(&(name, model, integrator, tables, _): &Method) -> Result<Drift, String> {
+fn drift(&(name, law, integrator, iterations, _): &Row) -> Result<Drift> {
     let mesh = block(CELLS, EDGE);
     let masses = lumped(&mesh);
-    let poisson = if model == "mass_spring" { "" } else { "poisson = 0.25\n" };
-    let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"{model}\"\nyoung = 1e5\n{poisson}\
-         density = {DENSITY}\n[mass]\nlumped = true\n[[initial_velocity]]\nvelocity = [1, 0.5, -0.2]\nangular = {{ axis = [1, 2, 3], rate = 2.0 }}\n\
-         {tables}[time]\nintegrator = \"{integrator}\"\ndt = {:e}\n",
-        1.0 / RATE as f64
-    );
-    let mut simulation = simulation(&text, mesh)?;
-    let before = momenta(&*simulation, &masses);
+    let body = Body::new(mesh, material(law, 1e5, 0.25, DENSITY)?)?.velocity([1.0, 0.5, -0.2])?;
+    let body = Body { lumped_mass: true, ..spinning(body, [1.0, 2.0, 3.0], 2.0) };
+    let mut simulation =
+        Simulator::<f64>::new(body, &Method { iterations, ..Method::new(integrator, 1.0 / RATE as f64) })?;
+    let before = momenta(&simulation, &masses);
     for _ in 0..STEPS {
         simulation.step().map_err(|failure| format!("{name}: {failure}"))?;
     }
-    let after = momenta(&*simulation, &masses);
+    let after = momenta(&simulation, &masses);
     Ok(Drift { linear: (after.0 - before.0).norm() / before.2, angular: (after.1 - before.1).norm() / before.1.norm() })
 }
 

@@ -1,13 +1,18 @@
 //! The thesis' setting: material, damping, load and time step, and the simulations that have it.
 
+use fem_engine::simulator::build;
 use fem_mesh::TetrahedralMesh;
-use fem_model::Integrator;
 use fem_model::simulation::Simulation;
+use fem_model::{
+    Axis, Body, BodyMesh, Damping, DampingForm, Integrator, Method, NewtonSettings, Precision, Preconditioner,
+    Selector, SolverKind, SolverSettings,
+};
 use nalgebra::Vector3;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::torus::{RING, TUBE};
-use crate::scenes::{REPLACED, simulation, step, text};
+use crate::scenes::{displaced, displacements, material, step};
+use crate::study::Result;
 
 /// Time step and duration of the thesis, s.
 pub const DT: f64 = 0.016;
@@ -24,18 +29,27 @@ pub const BETA: f64 = 2.5;
 /// The laws that are compared.
 pub const LAWS: [&str; 3] = ["linear", "corotated", "neo_hookean"];
 
-/// Linear solvers: a name, and the table of a scene.
-pub const SOLVERS: &[(&str, &str)] = &[
-    ("by size", ""),
-    ("cholesky", "[solver]\nkind = \"cholesky\"\n"),
-    ("lu", "[solver]\nkind = \"lu\"\n"),
-    ("cg", "[solver]\nkind = \"cg\"\n"),
-    ("pcg, block_jacobi", "[solver]\nkind = \"pcg\"\n"),
-    ("pcg, multigrid", "[solver]\nkind = \"pcg\"\npreconditioner = \"multigrid\"\n"),
-    ("gpu, f32 on the device", "[solver]\nkind = \"gpu\"\n"),
-    ("gpu, f64 on the device", "[solver]\nkind = \"gpu\"\nprecision = \"f64\"\n"),
-    ("pcg, ssor", "[solver]\nkind = \"pcg\"\npreconditioner = \"ssor\"\n"),
+/// Linear solvers by name.
+pub const SOLVERS: &[(&str, Option<SolverSettings>)] = &[
+    ("by size", None),
+    ("cholesky", solver(SolverKind::Cholesky, Preconditioner::BlockJacobi)),
+    ("lu", solver(SolverKind::Lu, Preconditioner::BlockJacobi)),
+    ("cg", solver(SolverKind::Cg, Preconditioner::BlockJacobi)),
+    ("pcg, block_jacobi", solver(SolverKind::Pcg, Preconditioner::BlockJacobi)),
+    ("pcg, multigrid", solver(SolverKind::Pcg, Preconditioner::Multigrid)),
+    ("gpu, f32 on the device", Some(on_device(Precision::F32))),
+    ("gpu, f64 on the device", Some(on_device(Precision::F64))),
+    ("pcg, ssor", solver(SolverKind::Pcg, Preconditioner::Ssor)),
 ];
+
+const fn solver(kind: SolverKind, preconditioner: Preconditioner) -> Option<SolverSettings> {
+    Some(SolverSettings { kind, preconditioner, ..on_device(Precision::F32) })
+}
+
+/// Conjugate gradients on a graphics device.
+pub const fn on_device(precision: Precision) -> SolverSettings {
+    SolverSettings { kind: SolverKind::Gpu, tolerance: None, preconditioner: Preconditioner::BlockJacobi, precision }
+}
 
 /// Parameters of a run of the torus. The default is the thesis' numbers.
 #[derive(Clone, Debug)]
@@ -46,18 +60,18 @@ pub struct Setting<'a> {
     pub young: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// `f64` or `f32`.
-    pub precision: &'a str,
+    /// Number type.
+    pub precision: Precision,
     /// Time integration method.
     pub integrator: Integrator,
-    /// Further tables of the scene, such as `[solver]`.
-    pub tables: &'a str,
+    /// Linear solver; `None` for one that suits the size of the body.
+    pub solver: Option<SolverSettings>,
 }
 
 impl Default for Setting<'_> {
     fn default() -> Self {
-        let integrator = Integrator::ImplicitEuler;
-        Self { law: "linear", young: YOUNG, poisson: POISSON, precision: "f64", integrator, tables: "" }
+        let (precision, integrator) = (Precision::F64, Integrator::ImplicitEuler);
+        Self { law: "linear", young: YOUNG, poisson: POISSON, precision, integrator, solver: None }
     }
 }
 
@@ -67,45 +81,49 @@ impl Setting<'_> {
         Setting { law, ..Setting::default() }
     }
 
-    /// The tables `[material]` and `[mass]`, and those of the method.
-    pub fn text(&self) -> String {
-        let Self { law, young, poisson, precision, integrator, tables } = self;
+    /// The same in equilibrium.
+    pub fn in_equilibrium(&self) -> Self {
+        Self { integrator: Integrator::Static, ..self.clone() }
+    }
+
+    /// The method.
+    pub fn method(&self) -> Method {
+        let is_static = self.integrator == Integrator::Static;
         // One solve is exact for a linear body; the thesis' tolerance avoids a second one that would confirm it.
-        let newton = match (*law, *integrator) {
-            ("linear", Integrator::ImplicitEuler) => "[newton]\ntolerance = 1e-5\n",
-            _ => "",
-        };
-        let time = match *integrator {
-            Integrator::Static => "steps = 1".to_owned(),
-            _ => format!("dt = {DT}\n[damping]\nalpha = {ALPHA}\nbeta = {BETA}"),
-        };
-        let material = format!(
-            "model = \"{law}\"\nyoung = {young:e}\npoisson = {poisson}\ndensity = {DENSITY}\n[mass]\nlumped = false\n{tables}{newton}"
-        );
-        text(
-            REPLACED,
-            &material,
-            &format!("integrator = \"{}\"\nprecision = \"{precision}\"\n{time}", integrator.name()),
-            "",
-        )
+        let tolerance = (self.law == "linear" && !is_static).then_some(1e-5);
+        Method {
+            precision: self.precision,
+            newton: NewtonSettings { tolerance, ..NewtonSettings::default() },
+            solver: self.solver.clone(),
+            ..Method::new(self.integrator, if is_static { 1.0 } else { DT })
+        }
+    }
+
+    /// A body with the material, its consistent mass and, in motion, the damping.
+    pub fn body(&self, mesh: impl Into<BodyMesh>) -> Result<Body> {
+        let body = Body::new(mesh, material(self.law, self.young, self.poisson, DENSITY)?)?;
+        match self.integrator {
+            Integrator::Static => Ok(body),
+            _ => Ok(body.damping(Damping { alpha: ALPHA, beta: BETA, form: DampingForm::default() })?),
+        }
     }
 
     /// The torus, squashed along x by a traction on its sides `left` and `right`. Nodes next to the planes
     /// of symmetry stay on them, which prevents rigid motion.
-    ///
-    /// # Errors
-    /// A scene that the engine refuses.
-    pub fn torus(&self, mesh: &TetrahedralMesh) -> Result<Box<dyn Simulation>, String> {
-        let mut text = self.text();
+    pub fn torus_body(&self, mesh: &TetrahedralMesh) -> Result<Body> {
+        let mut body = self.body(mesh.clone())?;
         for (side, sign) in [("left", 1.0), ("right", -1.0)] {
-            text += &format!("[[traction]]\nset = \"{side}\"\nforce_per_area = [{}, 0, 0]\n", sign * TRACTION);
+            body = body.traction(&Selector::Set(side.to_owned()), [sign * TRACTION, 0.0, 0.0])?;
         }
-        for (axis, nodes) in supports(mesh).iter().enumerate() {
-            let name = ["x", "y", "z"][axis];
-            text +=
-                &format!("[[prescribed]]\nnodes = {nodes:?}\ndisplacement = [0, 0, 0]\ncomponents = [\"{name}\"]\n");
+        for (axis, nodes) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(supports(mesh)) {
+            body = displaced(body, &Selector::Nodes(nodes), axis, 0.0)?;
         }
-        simulation(&text, mesh.clone())
+        Ok(body)
+    }
+
+    /// The simulation of that body.
+    pub fn torus(&self, mesh: &TetrahedralMesh) -> Result<Box<dyn Simulation>> {
+        Ok(build(self.torus_body(mesh)?, &self.method())?)
     }
 }
 
@@ -126,18 +144,9 @@ pub fn supports(mesh: &TetrahedralMesh) -> [Vec<usize>; 3] {
 const NEXT_TO_PLANE: f64 = 0.05 * TUBE;
 const LEAST_SUPPORTS: usize = 4;
 
-/// Displacements of all nodes, m.
-pub fn displacements(simulation: &dyn Simulation) -> Vec<Vector3<f64>> {
-    let (shape, q) = (simulation.shape(), simulation.positions());
-    shape.mesh.vertices().iter().enumerate().map(|(i, X)| q.fixed_rows::<3>(3 * i) - X).collect()
-}
-
 /// Equilibrium under the full load: displacements, m.
-///
-/// # Errors
-/// A scene that is refused, or a load step that does not converge.
-pub fn equilibrium(setting: &Setting, mesh: &TetrahedralMesh) -> Result<Vec<Vector3<f64>>, String> {
-    let mut simulation = Setting { integrator: Integrator::Static, ..setting.clone() }.torus(mesh)?;
+pub fn equilibrium(setting: &Setting, mesh: &TetrahedralMesh) -> Result<Vec<Vector3<f64>>> {
+    let mut simulation = setting.in_equilibrium().torus(mesh)?;
     step(&mut *simulation)?;
     Ok(displacements(&*simulation))
 }
@@ -170,11 +179,8 @@ pub fn squash(mesh: &TetrahedralMesh, displacements: &[Vector3<f64>]) -> (f64, f
 }
 
 /// A pool of one thread.
-///
-/// # Errors
-/// A thread that cannot be started.
-pub fn one_thread() -> Result<ThreadPool, String> {
-    ThreadPoolBuilder::new().num_threads(1).build().map_err(|error| error.to_string())
+pub fn one_thread() -> Result<ThreadPool> {
+    Ok(ThreadPoolBuilder::new().num_threads(1).build()?)
 }
 
 /// The middle of some numbers, and the one below which 95 % of them lie.

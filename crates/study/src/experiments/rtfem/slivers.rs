@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::torus::Torus;
 use crate::experiments::drawing::drawn;
-use crate::study::{Figure, Mark, Part, Table};
+use crate::study::{Figure, Mark, Part, Result, Table};
 
 /// A regular tetrahedron and bad ones, by their usual names (Cheng, Dey, Edelsbrunner, Facello and Teng, Sliver Exudation, 2000).
 const SHAPES: [(&str, [[f64; 3]; 4]); 6] = [
@@ -36,7 +36,7 @@ struct Measures {
 }
 
 /// Draws and measures each shape, and measures the torus.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let mut rows: Vec<(&str, Measures)> = Vec::new();
     let mut pictures = Vec::new();
     for (name, corners) in SHAPES {
@@ -51,18 +51,14 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     rows.push(("torus", measures(&Torus::of_size(if quick { 182 } else { 5392 })?.mesh)));
     let is_thin = |of: &Measures| of.angles[0] < ANGLES[0] || of.angles[1] > ANGLES[1];
     let [sliver, torus] = ["sliver", "torus"].map(|name| rows.iter().find(|row| row.0 == name).map(|row| &row.1));
-    let (Some(sliver), Some(torus)) = (sliver, torus) else { return Err("a shape is missing".to_owned()) };
+    let (Some(sliver), Some(torus)) = (sliver, torus) else { return Err("a shape is missing".into()) };
     let unseen: Vec<&str> =
         rows.iter().filter(|(_, of)| is_thin(of) && of.radius_to_edge < PROMISED).map(|row| row.0).collect();
+    let (ratio, angle) = (sliver.radius_to_edge, sliver.angles[0]);
     let marks = [
         Mark::new(
             format!("of the bad shapes R/l < {PROMISED} admits the sliver alone"),
-            format!(
-                "R/l {:.2} with an angle of {:.1}°; {}",
-                sliver.radius_to_edge,
-                sliver.angles[0],
-                unseen.join(", ")
-            ),
+            format!("R/l {ratio:.2} with an angle of {angle:.1}°; {}", unseen.join(", ")),
             unseen == ["sliver"],
         ),
         Mark::new(
@@ -85,11 +81,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     let text = "The thesis meshes with bounds on the volume and on the quality of tetrahedra. Delaunay refinement bounds the circumradius over the shortest edge, R/l, \
                 and so leaves slivers: four corners near a circle, with edges that are all long. The mesher here places tetrahedra on a lattice, improves them and judges dihedral angles.";
     let caption = "Bad shapes beside the regular one; the row of the torus has the worst of all its tetrahedra.";
-    let figure = Figure {
-        name: "rtfem-slivers".to_owned(),
-        picture: grid("shapes of tetrahedra", 2, &pictures),
-        caption: caption.to_owned(),
-    };
+    let figure = Figure::new("rtfem-slivers", grid("shapes of tetrahedra", 2, &pictures), caption);
     Ok(Part::new(text).marks(marks).tables([table]).figures([figure]))
 }
 

@@ -7,6 +7,8 @@ use fem_mesh::generate::{Solid, stuff};
 use fem_mesh::{MeshSet, SurfaceMesh, TetrahedralMesh, boundary, parts};
 use nalgebra::{Rotation3, Vector3};
 
+use crate::study::Result;
+
 /// Radius of the circle in the middle of the tube, and of the tube, m. The thesis gives their ratio, 1.92.
 pub const RING: f64 = 0.96;
 pub const TUBE: f64 = 0.5;
@@ -44,46 +46,38 @@ pub struct Torus {
 impl Torus {
     /// A torus with this number of elements within 5 %. A lattice of edges that fit gives few different numbers of elements on a body as
     /// symmetric as a torus, so the lattice is also turned about the axis x.
-    ///
-    /// # Errors
-    /// The requested number of elements cannot be reached with any edge.
-    pub fn of_size(wanted: usize) -> Result<Self, String> {
+    pub fn of_size(wanted: usize) -> Result<Self> {
         let mut best: Option<(f64, Self)> = None;
-        for turn in [0.0, 0.3, 0.6, 0.9, 1.2, 1.5] {
+        let parts = (0..=16).map(|i| if i % 2 == 0 { 1.0 + 0.01 * i as f64 } else { 1.0 - 0.01 * i as f64 });
+        'turns: for turn in [0.0, 0.3, 0.6, 0.9, 1.2, 1.5] {
             let first = edge_for(wanted, turn)?;
-            for part in (0..=16).map(|i| if i % 2 == 0 { 1.0 + 0.01 * i as f64 } else { 1.0 - 0.01 * i as f64 }) {
-                let raw = filled(first * part, turn)?;
+            for edge in parts.clone().map(|part| first * part) {
+                let raw = filled(edge, turn)?;
                 if deviation(&raw, wanted) > 2.0 * ACCEPTED {
                     continue;
                 }
                 let mesh = finished(raw, turn);
                 let off = deviation(&mesh, wanted);
                 if is_torus(&mesh) && best.as_ref().is_none_or(|(least, _)| off < *least) {
-                    best = Some((off, Self { mesh: with_caps(mesh), edge: first * part }));
+                    best = Some((off, Self { mesh: with_caps(mesh), edge }));
                 }
                 if best.as_ref().is_some_and(|(least, _)| *least <= GOOD) {
-                    break;
+                    break 'turns;
                 }
-            }
-            if best.as_ref().is_some_and(|(least, _)| *least <= GOOD) {
-                break;
             }
         }
         match best {
             Some((off, torus)) if off <= ACCEPTED => Ok(torus),
-            _ => Err(format!("no edge gives a torus of {wanted} elements within {:.0} %", 100.0 * ACCEPTED)),
+            _ => Err(format!("no edge gives a torus of {wanted} elements within {:.0} %", 100.0 * ACCEPTED).into()),
         }
     }
 
     /// A torus of edges of this length (m), without improvement.
-    ///
-    /// # Errors
-    /// Edges that are no length, or too short.
-    pub fn of_edge(edge: f64) -> Result<Self, String> {
+    pub fn of_edge(edge: f64) -> Result<Self> {
         let mesh = filled(edge, 0.0)?;
         match is_torus(&mesh) {
             true => Ok(Self { mesh: with_caps(mesh), edge }),
-            false => Err(format!("edges of {edge} m are too long for a torus")),
+            false => Err(format!("edges of {edge} m are too long for a torus").into()),
         }
     }
 }
@@ -94,7 +88,7 @@ pub fn deviation(mesh: &TetrahedralMesh, wanted: usize) -> f64 {
 }
 
 /// The edge (m) of about this number of elements: their number is close to inversely proportional to the cube of the edge.
-fn edge_for(wanted: usize, turn: f64) -> Result<f64, String> {
+fn edge_for(wanted: usize, turn: f64) -> Result<f64> {
     let mut edge = 0.3;
     for _ in 0..4 {
         let ratio = filled(edge, turn)?.elements.len() as f64 / wanted as f64;
@@ -105,8 +99,8 @@ fn edge_for(wanted: usize, turn: f64) -> Result<f64, String> {
 }
 
 /// Tetrahedra inside the torus, turned about the axis x by an angle.
-fn filled(edge: f64, turn: f64) -> Result<TetrahedralMesh, String> {
-    stuff(&turned_surface(turn), edge).map_err(|error| error.to_string())
+fn filled(edge: f64, turn: f64) -> Result<TetrahedralMesh> {
+    Ok(stuff(&turned_surface(turn), edge)?)
 }
 
 /// The improved mesh, turned back.

@@ -1,12 +1,10 @@
 //! Bodies of one element, of unconnected parts, and with too many or too few constraints.
 
 use fem_mesh::TetrahedralMesh;
-use fem_model::Integrator;
+use fem_model::{Integrator, Selector};
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, SceneText, dynamic, gravity, moved_box};
+use super::*;
 
 const FAMILY: &str = "degenerate bodies";
 
@@ -18,20 +16,17 @@ const DT_OF_GROWTH: f64 = 1e-4;
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
-    let steps = if quick { 20 } else { 200 };
-    for body in &BODIES {
-        for integrator in dynamic().chain([Integrator::Static]) {
-            cases.push(case(body, integrator, steps));
-        }
-    }
+    let methods: Vec<_> = dynamic().chain([Integrator::Static]).collect();
+    let all = pairs(&BODIES, methods);
+    cases.extend(all.map(|(body, integrator)| case(body, integrator, if quick { 20 } else { 200 })));
 }
 
 /// A body with too many or too few constraints.
 pub struct Body {
     /// Its name in tables.
     pub name: &'static str,
-    /// Tables of its scene.
-    pub tables: &'static str,
+    /// Adds its constraints.
+    pub constrained: fn(Setup) -> Setup,
     /// Its mesh.
     pub mesh: fn() -> Result<TetrahedralMesh, Finding>,
     /// Without enough constraints the body has no static equilibrium.
@@ -40,28 +35,31 @@ pub struct Body {
 
 /// The bodies.
 pub const BODIES: [Body; 6] = [
-    Body { name: "a single tetrahedron, free", tables: "", mesh: single, is_free: true },
+    Body { name: "a single tetrahedron, free", constrained: free, mesh: single, is_free: true },
     Body {
         name: "a single tetrahedron, three corners fixed",
-        tables: "[fixed]\nnodes = [0, 1, 2]\n",
+        constrained: |setup| setup.with(|body, _| body.fix(&Selector::Nodes(vec![0, 1, 2]))),
         mesh: single,
         is_free: false,
     },
-    Body { name: "two unconnected parts", tables: CLAMPED, mesh: parts, is_free: false },
+    Body { name: "two unconnected parts", constrained: clamped, mesh: parts, is_free: false },
     Body {
         name: "two unconnected boxes with coincident vertices on a face",
-        tables: CLAMPED,
+        constrained: clamped,
         mesh: coincident,
         is_free: true,
     },
-    Body {
-        name: "all nodes fixed",
-        tables: "[fixed]\nplane = { axis = \"x\", below = 9 }\n",
-        mesh: plain,
-        is_free: false,
-    },
-    Body { name: "no node fixed", tables: "", mesh: plain, is_free: true },
+    Body { name: "all nodes fixed", constrained: |setup| setup.with(clamp_within(9.0)), mesh: plain, is_free: false },
+    Body { name: "no node fixed", constrained: free, mesh: plain, is_free: true },
 ];
+
+fn free(setup: Setup) -> Setup {
+    setup
+}
+
+fn clamped(setup: Setup) -> Setup {
+    setup.with(clamp)
+}
 
 fn single() -> Result<TetrahedralMesh, Finding> {
     let vertices = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
@@ -91,15 +89,15 @@ fn together(mut one: TetrahedralMesh, other: TetrahedralMesh) -> TetrahedralMesh
 
 fn case(body: &Body, integrator: Integrator, steps: usize) -> Case {
     let dt = if integrator == Integrator::ExplicitEuler { DT_OF_GROWTH } else { DT };
-    let text = SceneText { dt, ..SceneText::small(integrator, "neo_hookean") };
-    let text = text.with(body.tables).with(&gravity([0.0, 0.0, -9.81]));
+    let setup = Setup { dt, ..Setup::small(integrator, "neo_hookean") };
+    let setup = (body.constrained)(setup).with(gravity([0.0, 0.0, -9.81]));
     let is_static = integrator == Integrator::Static;
     let (steps, mesh) = (if is_static { 1 } else { steps }, body.mesh);
     let parameters = format!("E = 1e5 Pa, dt = {dt:e} s, under its weight, {steps} steps");
     Case {
         expected: if is_static && body.is_free { Outcome::Refused } else { Outcome::Survives },
-        ..text.clone().case(FAMILY, body.name, parameters, move |deadline| {
-            Ok(march(&mut text.build_on(mesh()?)?, steps, deadline).survival())
+        ..setup.case(FAMILY, body.name, parameters, move |setup, deadline| {
+            Ok(march(&mut setup.build_on::<f64>(mesh()?)?, steps, deadline).survival())
         })
     }
 }

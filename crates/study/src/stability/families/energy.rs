@@ -1,14 +1,15 @@
 //! Energy from nothing: every method with every damping, driven in every way. The judge is the energy ledger; copies of a scene that are turned,
 //! scaled, or solved by another solver are further judges.
 
-use fem_model::Integrator;
 use fem_model::simulation::{Diagnostics, Simulation};
+use fem_model::{
+    Axis, Body, ContactPlane, Damping, DampingForm, Integrator, LoadCurve, Method, Motion, PlaneMotion, Plasticity,
+    Precision, Preconditioner, Refusal, Selector, SolverKind, SolverSettings,
+};
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::march::march;
-use crate::stability::scene_text::SceneText;
-use crate::study::Deadline;
+use super::*;
+use crate::scenes::spinning;
 
 const FAMILY: &str = "energy from nothing";
 
@@ -38,18 +39,16 @@ const DAMPINGS: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [0.0, 2e-3], [0.0, 0.1]
 struct Copy {
     axes: [usize; 3],
     scale: f64,
-    solver: &'static str,
+    /// Solved by preconditioned conjugate gradients.
+    is_iterated: bool,
 }
 
-const ORIGINAL: Copy = Copy { axes: [0, 1, 2], scale: 1.0, solver: "" };
+const ORIGINAL: Copy = Copy { axes: [0, 1, 2], scale: 1.0, is_iterated: false };
 
 const COPIES: [(&str, Copy); 3] = [
     ("turned", Copy { axes: [1, 2, 0], ..ORIGINAL }),
     ("scaled", Copy { scale: 0.25, ..ORIGINAL }),
-    (
-        "solved otherwise",
-        Copy { solver: "[solver]\nkind = \"pcg\"\npreconditioner = \"block_jacobi\"\ntolerance = 1e-12\n", ..ORIGINAL },
-    ),
+    ("solved otherwise", Copy { is_iterated: true, ..ORIGINAL }),
 ];
 
 /// A scene of the family.
@@ -69,7 +68,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     cases.extend(scenes.iter().step_by(every).map(|scene| balanced(*scene)));
     let compared = scenes.iter().filter(|scene| is_compared(scene));
     let copies = compared.flat_map(|scene| COPIES.iter().map(move |copy| (*scene, *copy)));
-    let usable = copies.filter(|(scene, (_, copy))| copy.solver.is_empty() || scene.integrator.has_newton());
+    let usable = copies.filter(|(scene, (_, copy))| !copy.is_iterated || scene.integrator.has_newton());
     cases.extend(usable.step_by(every).map(|(scene, (name, copy))| same(scene, name, copy)));
 }
 
@@ -124,82 +123,97 @@ impl Driven {
     }
 
     /// The scene, or a copy of it.
-    fn text(&self, copy: Copy) -> SceneText {
-        let Copy { axes, scale, solver } = copy;
-        let place = |x: [f64; 3]| {
-            let mut placed = [0.0; 3];
-            (0..3).for_each(|i| placed[axes[i]] = x[i]);
-            placed
+    fn setup(self, copy: Copy) -> Setup {
+        let [x, y, z] = copy.length([2.0, 1.0, 1.0]);
+        let grid = Grid::Solid([x, y, z], (1.0 / copy.scale).round() as usize);
+        let mut setup = Setup { grid, dt: self.dt * copy.scale, ..Setup::small(self.integrator, self.model) }
+            .newton(1e-11)
+            .with_if(self.integrator.is_explicit(), lump)
+            .with(move |body, method| self.driven(body, method, copy));
+        if [Integrator::Xpbd, Integrator::Vbd].contains(&self.integrator) {
+            setup = setup.iterations(100);
+        }
+        if copy.is_iterated {
+            let (kind, preconditioner, precision) = (SolverKind::Pcg, Preconditioner::BlockJacobi, Precision::F32);
+            let solver = SolverSettings { kind, tolerance: Some(1e-12), preconditioner, precision };
+            setup = setup.set(move |method| method.solver = Some(solver.clone()));
+        }
+        setup
+    }
+
+    /// The body with its drive, damping and plastic flow.
+    fn driven(self, body: Body, method: &Method, copy: Copy) -> Result<Body, Refusal> {
+        let scale = copy.scale;
+        let end = Selector::most([Axis::X, Axis::Y, Axis::Z][copy.axes[0]]);
+        let clamp = |body: Body| body.fix(&Selector::least([Axis::X, Axis::Y, Axis::Z][copy.axes[0]]));
+        let gravity = |body: Body| body.gravity(copy.place([0.0, -9.81 / scale, 0.0]));
+        let plane = |height: f64, normal: f64| {
+            let (point, normal) = (copy.length([0.0, height, 0.0]), copy.place([0.0, normal, 0.0]));
+            ContactPlane { friction: 0.4, ..ContactPlane::new(point.into(), normal.into()) }
         };
-        let length = |x: [f64; 3]| place(x.map(|x| scale * x));
-        let x = ["x", "y", "z"][axes[0]];
-        let clamp = format!("[fixed]\nplane = {{ axis = \"{x}\", below = 1e-9 }}\n");
-        let end = format!("on = {{ axis = \"{x}\", side = \"max\", within = 1e-9 }}");
-        let gravity = format!("[gravity]\nacceleration = {:?}\n", place([0.0, -9.81 / scale, 0.0]));
-        let plane = |height: f64, normal: f64, rest: &str| {
-            let (point, normal) = (length([0.0, height, 0.0]), place([0.0, normal, 0.0]));
-            format!("[[planes]]\npoint = {point:?}\nnormal = {normal:?}\nfriction = 0.4\n{rest}")
-        };
-        let velocity = |v: [f64; 3]| format!("[[initial_velocity]]\nvelocity = {:?}\n", place(v));
-        let drive = match self.drive {
+        let (mut body, planes) = match self.drive {
             0 => {
-                let displacement = length([0.3, 0.2, 0.0]);
-                format!("{clamp}[[prescribed]]\n{end}\ndisplacement = {displacement:?}\nuntil = {:?}\n", 0.1 * scale)
+                let pulled = Motion::by(copy.length([0.3, 0.2, 0.0]));
+                let mut body = clamp(body)?.prescribe(&end, [true; 3], pulled)?;
+                body.dirichlet[1].until = Some(0.1 * scale);
+                (body, Vec::new())
             }
             1 => {
-                let axis = place([0.0, 0.0, 1.0]);
-                let spin = format!("angular = {{ axis = {axis:?}, rate = {:?} }}\n", 6.0 / scale);
-                velocity([1.0, 2.0, 0.5]) + &spin
+                let body = body.velocity(copy.place([1.0, 2.0, 0.5]))?;
+                (spinning(body, copy.place([0.0, 0.0, 1.0]), 6.0 / scale), Vec::new())
             }
             2 => {
-                let sine = format!("curve = {{ sine = {{ frequency = {:?} }} }}\n", 1.5 / scale);
-                format!("{clamp}[[prescribed]]\n{end}\nvelocity = {:?}\n{sine}", place([0.8, 0.5, 0.0]))
+                let sine = LoadCurve::Sine { frequency: 1.5 / scale, phase: 0.0 };
+                // A velocity times the integral of its factor is the displacement.
+                let curve = Some(LoadCurve::Integral(Some(Box::new(sine))));
+                let motion = Motion { curve, ..Motion::by(copy.place([0.8, 0.5, 0.0])) };
+                (clamp(body)?.prescribe(&end, [true; 3], motion)?, Vec::new())
             }
-            3 => format!("{clamp}[[traction]]\n{end}\nforce_per_area = {:?}\n", place([0.0, 2e3, 1e3])),
-            4 => gravity + &velocity([1.5, -2.0, 0.0]) + &plane(-0.1, 1.0, ""),
+            3 => (clamp(body)?.traction(&end, copy.place([0.0, 2e3, 1e3]))?, Vec::new()),
+            4 => (gravity(body)?.velocity(copy.place([1.5, -2.0, 0.0]))?, vec![plane(-0.1, 1.0)]),
             5 => {
-                let moving = format!("velocity = {:?}\nuntil = {:?}\n", place([0.0, -0.5, 0.0]), 0.3 * scale);
-                plane(-0.01, 1.0, "") + &plane(1.01, -1.0, &moving)
+                let velocity = copy.place([0.0, -0.5, 0.0]).into();
+                let motion = PlaneMotion::Uniform { velocity, until: 0.3 * scale };
+                (body, vec![plane(-0.01, 1.0), ContactPlane { motion, ..plane(1.01, -1.0) }])
             }
-            _ => gravity + &plane(0.0, 1.0, ""),
+            _ => (gravity(body)?, vec![plane(0.0, 1.0)]),
         };
-        // Its default follows lengths per second.
-        let has_barrier = self.integrator.has_newton() && self.drive >= WITHOUT_PLANES;
-        let friction = if has_barrier { "[contact]\ntransition_speed = 1e-3\n" } else { "" };
-        let [alpha, beta] = [self.damping[0] / scale, self.damping[1] * scale];
-        let damping = format!("[damping]\nalpha = {alpha:?}\nbeta = {beta:?}\n");
-        let plastic = "[plasticity]\nmodel = \"j2\"\nyield_stress = 1e4\nhardening = 1e4\n";
-        let size = length([2.0, 1.0, 1.0]);
-        SceneText {
-            mesh: format!(
-                "box = {{ size = {size:?}, pattern = \"kuhn\", cells_per_unit = {} }}",
-                (1.0 / scale).round()
-            ),
-            dt: self.dt * scale,
-            ..SceneText::small(self.integrator, self.model)
+        if !planes.is_empty() {
+            let mut contact = body.contact_with(planes, method)?;
+            if self.integrator.has_newton() {
+                // Its default follows lengths per second.
+                contact.transition_speed = 1e-3;
+            }
+            body.contact = Some(contact);
         }
-        .with(&drive)
-        .with(friction)
-        .with(if self.damping == DAMPINGS[0] { "" } else { &damping })
-        .with(if self.model == "hencky" { plastic } else { "" })
-        .with(if self.integrator.is_explicit() { "[mass]\nlumped = true\n" } else { "" })
-        .with(if self.integrator.has_newton() { "[newton]\ntolerance = 1e-11\n" } else { "" })
-        .with(if [Integrator::Xpbd, Integrator::Vbd].contains(&self.integrator) {
-            "[iterations]\ncount = 100\n"
-        } else {
-            ""
-        })
-        .with(solver)
+        if self.model == "hencky" {
+            body.plasticity = Some(Plasticity::J2 { yield_stress: 1e4, hardening: 1e4 });
+        }
+        let [alpha, beta] = [self.damping[0] / scale, self.damping[1] * scale];
+        body.damping(Damping { alpha, beta, form: DampingForm::default() })
+    }
+}
+
+impl Copy {
+    /// A vector in the axes of the copy.
+    fn place(self, x: [f64; 3]) -> [f64; 3] {
+        let mut placed = [0.0; 3];
+        (0..3).for_each(|i| placed[self.axes[i]] = x[i]);
+        placed
+    }
+
+    /// The same of a length, m.
+    fn length(self, x: [f64; 3]) -> [f64; 3] {
+        self.place(x.map(|x| self.scale * x))
     }
 }
 
 /// A scene that gains no energy from nothing.
 fn balanced(scene: Driven) -> Case {
-    let text = scene.text(ORIGINAL);
     Case {
         margin_is: "gain of energy / 5 % of the energy supplied; must be at most 1",
-        ..text.clone().case(FAMILY, DRIVES[scene.drive], scene.parameters(), move |deadline| {
-            let mut simulation = text.build()?;
+        ..scene.setup(ORIGINAL).case(FAMILY, DRIVES[scene.drive], scene.parameters(), move |setup, deadline| {
+            let mut simulation = setup.build()?;
             let found = march(&mut simulation, scene.steps(), deadline).endurance();
             let ledger = simulation.energy_ledger().unwrap_or_default();
             let part = if ledger.gain > 0.0 { ledger.gain / (0.05 * ledger.turned_over) } else { 0.0 };
@@ -221,7 +235,7 @@ fn same(scene: Driven, name: &str, copy: Copy) -> Case {
     let case = format!("{}, {name}", DRIVES[scene.drive]);
     Case {
         margin_is: "largest difference / 1e-5 of the length; must be at most 1",
-        ..scene.text(ORIGINAL).case(FAMILY, case, parameters, move |deadline| {
+        ..scene.setup(ORIGINAL).case(FAMILY, case, parameters, move |_, deadline| {
             let (a, b) = (answer(scene, ORIGINAL, deadline)?, answer(scene, copy, deadline)?);
             let difference = |(X, u): &Moved| {
                 let nearest = b.iter().min_by(|(a, _), (b, _)| (a - X).norm().total_cmp(&(b - X).norm()));
@@ -238,7 +252,7 @@ type Moved = (Vector3<f64>, Vector3<f64>);
 
 /// Those of all nodes at the end, as the original has them.
 fn answer(scene: Driven, copy: Copy, deadline: Deadline) -> Result<Vec<Moved>, Finding> {
-    let mut simulation = scene.text(copy).build()?;
+    let mut simulation = scene.setup(copy).build()?;
     let end = march(&mut simulation, scene.steps(), deadline).endurance();
     if end.outcome != Outcome::Survives {
         return Err(end);

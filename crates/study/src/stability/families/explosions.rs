@@ -3,10 +3,7 @@
 use fem_model::Integrator;
 use fem_model::simulation::{Cause, Simulation};
 
-use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::forecast::clamped;
-use crate::stability::scene_text::{LAWS, SceneText, gravity};
-use crate::study::Deadline;
+use super::*;
 
 const FAMILY: &str = "explosions";
 
@@ -15,23 +12,23 @@ const STEPS: usize = 20;
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>) {
-    for integrator in
-        [Integrator::ExplicitEuler, Integrator::SemiImplicitEuler, Integrator::Rk2, Integrator::Rk4, Integrator::Verlet]
-    {
-        for model in LAWS {
-            let text = clamped(integrator, model, 1e5, 0.3).with(&gravity([0.0, 0.0, -10.0]));
-            let parameters = "E = 1e5 Pa, dt = 0.3 s".to_owned();
-            cases.push(Case {
-                expected: Outcome::Explodes,
-                margin_is: "step in which the run ends; at most 20",
-                ..text.clone().case(FAMILY, "clamped body, falling", parameters, move |deadline| ended(&text, deadline))
-            });
-        }
+    let methods = [
+        Integrator::ExplicitEuler,
+        Integrator::SemiImplicitEuler,
+        Integrator::Rk2,
+        Integrator::Rk4,
+        Integrator::Verlet,
+    ];
+    for (integrator, law) in pairs(methods, LAWS) {
+        let setup = clamped(integrator, law, 1e5, 0.3).with(gravity([0.0, 0.0, -10.0]));
+        let case = setup.case(FAMILY, "clamped body, falling", "E = 1e5 Pa, dt = 0.3 s".to_owned(), ended);
+        let margin_is = "step in which the run ends; at most 20";
+        cases.push(Case { expected: Outcome::Explodes, margin_is, ..case });
     }
 }
 
-fn ended(text: &SceneText, deadline: Deadline) -> Result<Finding, Finding> {
-    let mut simulation = text.build()?;
+fn ended(setup: &Setup, deadline: Deadline) -> Result<Finding, Finding> {
+    let mut simulation = setup.build()?;
     for step in 1..=STEPS {
         if deadline.is_over() {
             return Ok(Finding::plain(Outcome::Hangs, format!("deadline after {step} steps")));

@@ -5,12 +5,8 @@ use fem_mesh::TetrahedralMesh;
 use fem_model::Integrator;
 use nalgebra::Vector3;
 
+use super::*;
 use crate::scenes::{Elements, LINEAR};
-use crate::stability::case::{Case, Finding};
-use crate::stability::initial_state::{Random, place_moving};
-use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, LUMPED, SceneText, dynamic, gravity, moved_box};
-use crate::study::Deadline;
 
 const FAMILY: &str = "invariance";
 
@@ -35,23 +31,14 @@ const MARGIN_IS: &str = "largest difference / 1e-8 of the length, round-off; mus
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let methods = if quick { &METHODS[..1] } else { &METHODS };
-    for &(integrator, dt, steps) in methods {
-        for model in ["neo_hookean", "stable_neo_hookean"] {
-            let text = SceneText { dt, ..SceneText::finer(integrator, model) }.with(CLAMPED);
-            let text = text.with(if integrator.has_newton() { "[newton]\ntolerance = 1e-12\n" } else { "" });
-            cases.push(shifted(text.clone(), steps));
-            for scale in [1e-6, 1e6] {
-                cases.push(scaled(text.clone(), scale, steps));
-            }
-            for seed in 0..if quick { 1 } else { 5 } {
-                cases.push(renumbered(text.clone(), seed, steps));
-            }
-        }
+    for (&(integrator, dt, steps), law) in pairs(methods, NEO_HOOKEAN) {
+        let setup = Setup { dt, ..Setup::finer(integrator, law) }.newton(1e-12);
+        cases.push(shifted(setup.clone(), steps));
+        cases.extend([1e-6, 1e6].map(|scale| scaled(setup.clone(), scale, steps)));
+        cases.extend((0..if quick { 1 } else { 5 }).map(|seed| renumbered(setup.clone(), seed, steps)));
     }
-    for integrator in dynamic() {
-        for mass in ["", LUMPED] {
-            cases.push(rigid(integrator, LINEAR, mass, if quick { 100 } else { 1000 }));
-        }
+    for (integrator, is_lumped) in pairs(dynamic(), [false, true]) {
+        cases.push(rigid(integrator, LINEAR, is_lumped, if quick { 100 } else { 1000 }));
     }
 }
 
@@ -64,15 +51,13 @@ fn unmoved() -> Result<TetrahedralMesh, Finding> {
 
 /// Displacements in the mesh's numbering, relative to the body's length.
 fn answer(
-    text: &SceneText,
+    setup: &Setup,
     mesh: TetrahedralMesh,
     steps: usize,
     deadline: Deadline,
 ) -> Result<Vec<Vector3<f64>>, Finding> {
-    let mut simulation = text.build_on(mesh)?;
-    if let Some(trouble) = march(&mut simulation, steps, deadline).trouble() {
-        return Err(trouble);
-    }
+    let mut simulation = setup.build_on::<f64>(mesh)?;
+    march(&mut simulation, steps, deadline).survived()?;
     let (system, u) = (simulation.system(), &simulation.state().u);
     Ok(system.numbering.to_mesh(u).into_iter().map(|u| Vector3::from(u) / system.length).collect())
 }
@@ -83,27 +68,26 @@ fn compared(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> Finding {
     Finding::within(largest / SAME, format!("difference {largest:.1e}, displacement {size:.2e}"))
 }
 
-fn shifted(text: SceneText, steps: usize) -> Case {
-    let text = text.with(&gravity(WEIGHT));
+fn shifted(setup: Setup, steps: usize) -> Case {
+    let setup = setup.with(gravity(WEIGHT));
     let parameters = "translated by (1e6, -1e6, 1e6) m and a third".to_owned();
-    let case = text.clone().case(FAMILY, "far from the origin", parameters, move |deadline| {
+    let case = setup.case(FAMILY, "far from the origin", parameters, move |setup, deadline| {
         let away = Vector3::new(1e6, -1e6, 1e6).add_scalar(1.0 / 3.0);
         let far = moved_box([2.0, 1.0, 1.0], 2, |x| x + away)?;
         // The tolerance of the clamp is 1e-9 m at the origin, which is round-off far away.
-        let far_text = SceneText { rest: text.rest.replace("1e-9", "1e-6"), ..text.clone() };
-        let near = answer(&text, unmoved()?, steps, deadline)?;
-        Ok(compared(&near, &answer(&far_text, far, steps, deadline)?))
+        let near = answer(&setup.clone().with(clamp), unmoved()?, steps, deadline)?;
+        Ok(compared(&near, &answer(&setup.clone().with(clamp_within(1e-6)), far, steps, deadline)?))
     });
     Case { margin_is: MARGIN_IS, ..case }
 }
 
 /// The weight is scaled so that the body bends alike, and the time step so that waves pass as many elements.
-fn scaled(text: SceneText, scale: f64, steps: usize) -> Case {
+fn scaled(setup: Setup, scale: f64, steps: usize) -> Case {
     let parameters = format!("dt and 1/g scaled by {scale:e}");
-    let case = text.clone().case(FAMILY, format!("scaled by {scale:e}"), parameters, move |deadline| {
-        let unit = text.clone().with(&gravity(WEIGHT));
-        let rest = text.rest.replace("1e-9", &format!("{:e}", 1e-9 * scale));
-        let other = SceneText { dt: text.dt * scale, rest, ..text }.with(&gravity(WEIGHT.map(|g| g / scale)));
+    let case = setup.case(FAMILY, format!("scaled by {scale:e}"), parameters, move |setup, deadline| {
+        let unit = setup.clone().with(clamp).with(gravity(WEIGHT));
+        let other = Setup { dt: setup.dt * scale, ..setup.clone() }.with(clamp_within(1e-9 * scale));
+        let other = other.with(gravity(WEIGHT.map(|g| g / scale)));
         let near = answer(&unit, unmoved()?, steps, deadline)?;
         Ok(compared(&near, &answer(&other, moved_box([2.0, 1.0, 1.0], 2, |x| x * scale)?, steps, deadline)?))
     });
@@ -111,14 +95,14 @@ fn scaled(text: SceneText, scale: f64, steps: usize) -> Case {
 }
 
 /// Nodes and elements in random order, with rotated corners of elements.
-fn renumbered(text: SceneText, seed: u64, steps: usize) -> Case {
-    let text = text.with(&gravity(WEIGHT));
+fn renumbered(setup: Setup, seed: u64, steps: usize) -> Case {
+    let setup = setup.with(clamp).with(gravity(WEIGHT));
     let name = "nodes, elements and corners renumbered";
-    let case = text.clone().case(FAMILY, name, "random permutations".to_owned(), move |deadline| {
+    let case = setup.case(FAMILY, name, "random permutations".to_owned(), move |setup, deadline| {
         let mesh = unmoved()?;
         let (other, number) = shuffled(&mesh, seed);
-        let plain = answer(&text, mesh, steps, deadline)?;
-        let found = answer(&text, other, steps, deadline)?;
+        let plain = answer(setup, mesh, steps, deadline)?;
+        let found = answer(setup, other, steps, deadline)?;
         Ok(compared(&plain, &number.into_iter().map(|node| found[node]).collect::<Vec<_>>()))
     });
     Case { margin_is: MARGIN_IS, seed: Some(seed), ..case }
@@ -142,17 +126,17 @@ fn shuffled(mesh: &TetrahedralMesh, seed: u64) -> (TetrahedralMesh, Vec<usize>) 
 }
 
 /// A free box in rigid motion.
-pub fn rigid(integrator: Integrator, elements: Elements, mass: &'static str, steps: usize) -> Case {
-    let text = SceneText { dt: 1e-3, elements, ..SceneText::small(integrator, "neo_hookean") }.with(mass);
-    let name = if mass.is_empty() { "consistent" } else { "lumped" };
+pub fn rigid(integrator: Integrator, elements: Elements, is_lumped: bool, steps: usize) -> Case {
+    let setup = Setup { dt: 1e-3, elements, ..Setup::small(integrator, "neo_hookean") }.with_if(is_lumped, lump);
+    let name = if is_lumped { "lumped" } else { "consistent" };
     let parameters = format!("{name} mass, dt = 1e-3 s, {steps} steps");
-    in_rigid_motion(text, FAMILY, parameters, steps)
+    in_rigid_motion(setup, FAMILY, parameters, steps)
 }
 
 /// A free body in rigid motion without loads, which conserves its momentum; a flat one stays in its plane too.
-pub fn in_rigid_motion(text: SceneText, family: &'static str, parameters: String, steps: usize) -> Case {
-    let case = text.clone().case(family, "translating and rotating", parameters, move |deadline| {
-        let mut simulation = text.build()?;
+pub fn in_rigid_motion(setup: Setup, family: &'static str, parameters: String, steps: usize) -> Case {
+    let case = setup.case(family, "translating and rotating", parameters, move |setup, deadline| {
+        let mut simulation = setup.build()?;
         let is_flat = simulation.system().shape.mesh.dimension() == 2;
         let (spin, speed, middle) = match is_flat {
             true => (Vector3::new(0.0, 0.0, 0.5), Vector3::new(3.0, 2.0, 0.0), Vector3::new(1.0, 0.5, 0.0)),
@@ -164,7 +148,8 @@ pub fn in_rigid_motion(text: SceneText, family: &'static str, parameters: String
         let change = (momentum(&simulation) - before).norm() / (1e-12 * before.norm());
         let has_left = is_flat && simulation.state().u.iter().any(|u| u[2] != 0.0);
         let change = if has_left { f64::INFINITY } else { change };
-        Ok(end.trouble().unwrap_or_else(|| Finding::within(change, end.note())))
+        end.survived()?;
+        Ok(Finding::within(change, end.note()))
     });
     Case { margin_is: "relative change of momentum / 1e-12, round-off; must be at most 1", ..case }
 }

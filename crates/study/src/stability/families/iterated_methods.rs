@@ -1,21 +1,20 @@
 //! Methods of a fixed number of iterations: position-based dynamics, its extended form, vertex block descent, projective dynamics. They step
 //! with whatever error is left, so that every time step is stable, but elements of a law without a barrier may end inverted.
 
-use fem_model::Integrator;
+use std::path::Path;
+
+use fem_model::{Integrator, Motion};
 use fem_scene::parse;
 
 use super::contact::{BODIES as OBSTRUCTED, hit};
 use super::degenerate_bodies::{BODIES, Body};
 use super::invariance::rigid;
 use super::recovery::{MARGIN_IS as RECOVERED, back_at_rest};
+use super::refusals::{refusal, scene};
 use super::single_precision::compared;
 use super::stiffness_and_step::{DT, YOUNG};
+use super::*;
 use crate::scenes::LINEAR;
-use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
-use crate::stability::initial_state::{Random, TANGLES, Tangle, place};
-use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, LUMPED, SceneText, gravity, iterated, prescribed_end};
 
 const FAMILY: &str = "iterated methods";
 
@@ -30,42 +29,27 @@ const MARGIN_IS: &str =
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let omega = unit_omega("linear", LINEAR);
     for integrator in iterated() {
-        for count in if quick { &[20][..] } else { &[1, 20] } {
-            for young in YOUNG {
-                for dt in DT {
-                    cases.push(vibrating(integrator, young, (dt, *count), omega));
-                }
-            }
+        let counts = if quick { &[20][..] } else { &[1, 20] };
+        for ((&count, young), dt) in pairs(pairs(counts, YOUNG), DT) {
+            cases.push(vibrating(integrator, young, (dt, count), omega));
         }
-        for young in if quick { &YOUNG[1..2] } else { &YOUNG } {
-            for dt in DT {
-                cases.push(weighed(integrator, *young, dt));
-            }
+        let stiffness = if quick { &YOUNG[1..2] } else { &YOUNG };
+        cases.extend(pairs(stiffness, DT).map(|(&young, dt)| weighed(integrator, young, dt)));
+        cases.extend(pairs(ENDS, LAWS).map(|((name, motion), law)| moved(name, motion(), law, integrator)));
+        let tangles = TANGLES.into_iter().filter(|(name, _)| *name != "reflected");
+        for ((name, tangle), seed) in pairs(tangles, 0..if quick { 1 } else { 10 }) {
+            cases.push(tangled(name, tangle, integrator, seed));
         }
-        for (name, motion) in ENDS {
-            for law in LAWS {
-                cases.push(moved(name, motion, law, integrator));
-            }
-        }
-        for (name, tangle) in TANGLES.into_iter().filter(|(name, _)| *name != "reflected") {
-            for seed in 0..if quick { 1 } else { 10 } {
-                cases.push(tangled(name, tangle, integrator, seed));
-            }
-        }
-        for body in &BODIES {
-            cases.push(degenerate(body, integrator, if quick { 20 } else { 200 }));
-        }
+        cases.extend(BODIES.iter().map(|body| degenerate(body, integrator, if quick { 20 } else { 200 })));
         cases.push(compared("clamped body, sagging", clamped(integrator, "stable_neo_hookean", 1e5, 0.005), |x| *x));
-        for (name, mesh) in if quick { &OBSTRUCTED[1..] } else { &OBSTRUCTED[..] } {
-            for speed in [1e-3, 0.2] {
-                let mesh = (*mesh).to_owned();
-                let text = SceneText { mesh, ..SceneText::small(integrator, "stable_neo_hookean") };
-                cases.push(hit(text, name, 0.5, speed));
-            }
+        let obstructed = if quick { &OBSTRUCTED[1..] } else { &OBSTRUCTED[..] };
+        for (&(name, grid), speed) in pairs(obstructed, [1e-3, 0.2]) {
+            let setup = Setup { grid, ..Setup::small(integrator, "stable_neo_hookean") };
+            cases.push(hit(setup, name, 0.5, speed));
         }
         // A step of few sweeps of vertex block descent does not keep the momentum. Round-off of all sweeps adds up.
         if integrator != Integrator::Vbd {
-            cases.push(rigid(integrator, LINEAR, LUMPED, 100));
+            cases.push(rigid(integrator, LINEAR, true, 100));
         }
         add_refusals(cases, integrator);
     }
@@ -80,49 +64,44 @@ fn expected(integrator: Integrator, law: &str) -> Outcome {
     }
 }
 
-fn iterations(count: usize) -> String {
-    format!("[iterations]\ncount = {count}\n")
-}
-
 /// The highest mode of a clamped body, which implicit Euler damps however stiff the body and long the step.
 fn vibrating(integrator: Integrator, young: f64, (dt, count): (f64, usize), unit_omega: f64) -> Case {
     let forecast = forecast(integrator, unit_omega * young.sqrt() * dt, 60);
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, {count} iterations, {} steps", forecast.steps);
-    let text = clamped(integrator, "stable_neo_hookean", young, dt).with(&iterations(count));
-    text.clone()
-        .case(FAMILY, "clamped body, vibrating", parameters, move |deadline| try_forecast(&text, forecast, deadline))
+    let setup = clamped(integrator, "stable_neo_hookean", young, dt).iterations(count);
+    setup.case(FAMILY, "clamped body, vibrating", parameters, move |setup, deadline| {
+        try_forecast(setup, forecast, deadline)
+    })
 }
 
 /// A clamped body under a weight of a fifth of E times its cross-section.
 fn weighed(integrator: Integrator, young: f64, dt: f64) -> Case {
-    let text = clamped(integrator, "stable_neo_hookean", young, dt).with(&gravity([0.0, 0.0, -0.1 * young / 1e3]));
+    let setup = clamped(integrator, "stable_neo_hookean", young, dt).with(gravity([0.0, 0.0, -0.1 * young / 1e3]));
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, 50 steps");
     let name = "clamped body, sagging under a fifth of E times its cross-section";
     // E dt² over ρ h², of elements with edges of h = 1 m. Twenty sweeps of vertex block descent carry a load that far alone.
-    let stiffness = young * dt * dt / text.density;
+    let stiffness = young * dt * dt / setup.density;
     Case {
         expected: match integrator {
             Integrator::Xpbd if stiffness > 5.0 => Outcome::Explodes,
             Integrator::Vbd if stiffness > 1e4 => Outcome::Inverts,
             _ => Outcome::Survives,
         },
-        ..text.surviving(FAMILY, name, parameters, 50)
+        ..setup.surviving(FAMILY, name, parameters, 50)
     }
 }
 
 /// Motions of the end of largest x.
-const ENDS: [(&str, &str); 3] = [
-    ("stretched to ten times its length", "displacement = [18, 0, 0]"),
-    ("compressed to a tenth of its length", "displacement = [-1.8, 0, 0]"),
-    ("turned once", "rotation = { axis = \"x\", center = [0, 0.5, 0.5], turns = 1 }"),
+const ENDS: [EndMotion; 3] = [
+    ("stretched to ten times its length", || Motion::by([18.0, 0.0, 0.0])),
+    ("compressed to a tenth of its length", || Motion::by([-1.8, 0.0, 0.0])),
+    ("turned once", || turned([0.0, 0.5, 0.5], 1.0)),
 ];
 
-fn moved(name: &str, motion: &str, law: &'static str, integrator: Integrator) -> Case {
-    let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, law) };
-    let text = text.with(CLAMPED).with(&prescribed_end(motion, 2.5));
-    let case = text.clone().case(FAMILY, name, "E = 1e5 Pa, dt = 0.05 s, 50 steps".to_owned(), {
-        move |deadline| Ok(march(&mut text.build()?, 50, deadline).endurance())
-    });
+fn moved(name: &str, motion: Motion, law: &'static str, integrator: Integrator) -> Case {
+    let setup = Setup { dt: 0.05, ..Setup::finer(integrator, law) };
+    let setup = setup.with(clamp).with(prescribed_end(motion, 2.5));
+    let case = setup.enduring(FAMILY, name, "E = 1e5 Pa, dt = 0.05 s, 50 steps".to_owned(), 50);
     Case { expected: expected(integrator, law), margin_is: MARGIN_IS, ..case }
 }
 
@@ -133,10 +112,10 @@ const STEPS: usize = 600;
 const FLAT_AND_DIVERGING: [u64; 4] = [1, 4, 7, 9];
 
 fn tangled(name: &str, tangle: Tangle, integrator: Integrator, seed: u64) -> Case {
-    let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, "stable_neo_hookean") }.with(CLAMPED).with(DAMPED);
-    let parameters = format!("E = 1e5 Pa, dt = {} s, up to {STEPS} steps", text.dt);
-    let case = text.clone().case(FAMILY, name, parameters, move |deadline| {
-        let (mut simulation, mut random) = (text.build()?, Random::new(seed));
+    let setup = Setup { dt: 0.05, ..Setup::finer(integrator, "stable_neo_hookean") }.with(clamp).with(damp);
+    let parameters = format!("E = 1e5 Pa, dt = {} s, up to {STEPS} steps", setup.dt);
+    let case = setup.case(FAMILY, name, parameters, move |setup, deadline| {
+        let (mut simulation, mut random) = (setup.build()?, Random::new(seed));
         place(&mut simulation, |X| tangle(&mut random, X));
         Ok(back_at_rest(&mut simulation, STEPS, true, deadline))
     });
@@ -151,15 +130,15 @@ fn tangled(name: &str, tangle: Tangle, integrator: Integrator, seed: u64) -> Cas
 }
 
 fn degenerate(body: &Body, integrator: Integrator, steps: usize) -> Case {
-    let text = SceneText { dt: 1e-3, ..SceneText::small(integrator, "stable_neo_hookean") };
-    let text = text.with(body.tables).with(&gravity([0.0, 0.0, -9.81]));
+    let setup = Setup { dt: 1e-3, ..Setup::small(integrator, "stable_neo_hookean") };
+    let setup = (body.constrained)(setup).with(gravity([0.0, 0.0, -9.81]));
     let (mesh, parameters) = (body.mesh, format!("E = 1e5 Pa, dt = 1e-3 s, under its weight, {steps} steps"));
-    text.clone().case(FAMILY, body.name, parameters, move |deadline| {
-        Ok(march(&mut text.build_on(mesh()?)?, steps, deadline).survival())
+    setup.case(FAMILY, body.name, parameters, move |setup, deadline| {
+        Ok(march(&mut setup.build_on::<f64>(mesh()?)?, steps, deadline).survival())
     })
 }
 
-/// Settings that these methods do not support: text to replace, its replacement, and the words that the error must contain.
+/// Settings that these methods do not support: setup to replace, its replacement, and the words that the error must contain.
 const UNKNOWN: [(&str, &str, &str, &str); 4] = [
     (
         "a mass-spring body",
@@ -174,16 +153,11 @@ const UNKNOWN: [(&str, &str, &str, &str); 4] = [
 
 fn add_refusals(cases: &mut Vec<Case>, integrator: Integrator) {
     for (name, from, to, names) in UNKNOWN {
-        let text = SceneText::small(integrator, "neo_hookean").with(CLAMPED);
-        let case = text.clone().case(FAMILY, name, format!("`{}`", to.replace('\n', "; ")), move |_| {
-            let refused = parse(&text.text().replace(from, to), std::path::Path::new("case.toml"));
-            Ok(match refused.map_err(|error| error.to_string()) {
-                Ok(_) => Finding::new(Outcome::Accepted, 0.0, ""),
-                Err(message) if message.contains(names) => Finding::new(Outcome::Refused, 1.0, message),
-                Err(message) => Finding::new(Outcome::Deviates, 0.0, format!("does not name {names}: {message}")),
-            })
+        let case = refusal(name, format!("`{}`", to.replace('\n', "; ")), names, move || {
+            let refused = parse(&scene(integrator).replace(from, to), Path::new("case.toml"));
+            refused.map(|_| ()).map_err(|error| error.to_string())
         });
-        let margin_is = "1 if the message names the element or key, else 0";
-        cases.push(Case { expected: Outcome::Refused, margin_is, ..case });
+        let (integrator, material) = (integrator.name().to_owned(), "neo_hookean".to_owned());
+        cases.push(Case { family: FAMILY, integrator, material, ..case });
     }
 }

@@ -3,12 +3,8 @@
 use fem_model::Integrator;
 use std::ops::RangeInclusive;
 
+use super::*;
 use crate::scenes::LINEAR;
-use crate::stability::case::{Case, Cell, Finding, Map, Outcome};
-use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
-use crate::stability::scene_text::dynamic;
-use crate::stability::theory;
-use crate::study::Deadline;
 
 /// Young's moduli, from bottom to top: powers of ten, Pa.
 pub const EXPONENTS_OF_YOUNG: RangeInclusive<i32> = 2..=12;
@@ -25,15 +21,15 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let count = EXPONENTS_OF_YOUNG.count() * TIME_STEPS;
     for integrator in dynamic() {
         let parameters = format!("{count} pairs, E = 1e2 to 1e12 Pa, dt = 1e-5 to 1 s");
-        let text = clamped(integrator, "neo_hookean", 1.0, 1.0);
-        let work = move |deadline| {
+        let setup = clamped(integrator, "neo_hookean", 1.0, 1.0);
+        let work = move |_: &Setup, deadline| {
             let map = map(integrator, omega, if quick { 300 } else { 4000 }, deadline);
             let finding = judged(&map);
             Ok(Finding { map: Some(map), ..finding })
         };
         cases.push(Case {
             margin_is: "share of the pairs with an outcome against theory; must be 0",
-            ..text.case("maps of stiffness and time step", "clamped body, vibrating", parameters, work)
+            ..setup.case("maps of stiffness and time step", "clamped body, vibrating", parameters, work)
         });
     }
 }
@@ -45,8 +41,8 @@ fn map(integrator: Integrator, omega: f64, most: usize, deadline: Deadline) -> M
             let (young, dt) = (10f64.powi(exponent), 10f64.powf(f64::from(part) / f64::from(PARTS_OF_DT) - 5.0));
             let z = omega * young.sqrt() * dt;
             let forecast = forecast(integrator, z, most);
-            let text = clamped(integrator, "neo_hookean", young, dt);
-            let found = try_forecast(&text, forecast, deadline).unwrap_or_else(|finding| finding);
+            let setup = clamped(integrator, "neo_hookean", young, dt);
+            let found = try_forecast(&setup, forecast, deadline).unwrap_or_else(|finding| finding);
             let (steps, expected) = (forecast.steps, forecast.expected);
             cells.push(Cell { young, dt, z, steps, expected, outcome: found.outcome, note: found.note });
         }

@@ -3,10 +3,7 @@
 use fem_engine::simulator::Simulator;
 use fem_model::Integrator;
 
-use crate::stability::case::{Case, Finding};
-use crate::stability::forecast::excite;
-use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, SceneText, gravity, refused};
+use super::*;
 
 const FAMILY: &str = "material contrast";
 
@@ -39,42 +36,39 @@ const METHODS: [(Integrator, f64); 6] = [
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
-    for contrast in CONTRASTS {
-        for model in ["neo_hookean", "stable_neo_hookean"] {
-            for (integrator, dt) in METHODS {
-                let text = SceneText { young: contrast.young_at_clamp, dt, ..SceneText::finer(integrator, model) };
-                cases.push(case(contrast, text.with(CLAMPED), if quick { 20 } else { 200 }));
-            }
-        }
+    for ((contrast, law), (integrator, dt)) in pairs(pairs(CONTRASTS, NEO_HOOKEAN), METHODS) {
+        let setup = Setup { young: contrast.young_at_clamp, dt, ..Setup::finer(integrator, law) };
+        cases.push(case(contrast, setup.with(clamp), if quick { 20 } else { 200 }));
     }
 }
 
-fn case(contrast: Contrast, text: SceneText, steps: usize) -> Case {
-    let steps = if text.integrator == Integrator::Static { 1 } else { steps };
-    let soft = text.young * contrast.young.min(1.0);
-    let heavy = text.density * contrast.density.max(1.0);
+fn case(contrast: Contrast, setup: Setup, steps: usize) -> Case {
+    let steps = if setup.integrator == Integrator::Static { 1 } else { steps };
+    let soft = setup.young * contrast.young.min(1.0);
+    let heavy = setup.density * contrast.density.max(1.0);
     // A hundredth of the stiffness of the softer half.
-    let mut text = text.with(&gravity([0.0, 0.0, -0.01 * soft / heavy]));
-    let step = if text.integrator == Integrator::Verlet {
+    let setup = setup.with(gravity([0.0, 0.0, -0.01 * soft / heavy]));
+    let step = if setup.integrator == Integrator::Verlet {
         "0.9 of the largest stable step".to_owned()
     } else {
-        format!("{:e} s", text.dt)
+        format!("{:e} s", setup.dt)
     };
-    let parameters = format!("at the clamp E = {:e} Pa, 1e3 kg/m3; dt = {step}, {steps} steps", text.young);
-    text.clone().case(FAMILY, contrast.name, parameters, move |deadline| {
-        if text.integrator == Integrator::Verlet {
-            text.dt = 0.9 * 2.0 / excite(&mut build(&text, contrast)?, 0.0)?.omega;
+    let parameters = format!("at the clamp E = {:e} Pa, 1e3 kg/m3; dt = {step}, {steps} steps", setup.young);
+    setup.case(FAMILY, contrast.name, parameters, move |setup, deadline| {
+        let mut setup = setup.clone();
+        if setup.integrator == Integrator::Verlet {
+            setup.dt = 0.9 * 2.0 / excite(&mut build(&setup, contrast)?, 0.0)?.omega;
         }
-        Ok(march(&mut build(&text, contrast)?, steps, deadline).survival())
+        Ok(march(&mut build(&setup, contrast)?, steps, deadline).survival())
     })
 }
 
-fn build(text: &SceneText, contrast: Contrast) -> Result<Simulator<f64>, Finding> {
-    let (scene, mut body) = text.scene_and_body()?;
+fn build(setup: &Setup, contrast: Contrast) -> Result<Simulator<f64>, Finding> {
+    let mut body = setup.body()?;
     let mesh = &body.shape.mesh;
     let is_beyond = |nodes: &[usize]| nodes.iter().map(|&node| mesh.vertices()[node].x).sum::<f64>() > 4.0;
     let beyond: Vec<bool> = mesh.corners().map(is_beyond).collect();
     let factors = |factor: f64| beyond.iter().map(|&beyond| if beyond { factor } else { 1.0 }).collect();
     (body.stiffness_factors, body.density_factors) = (factors(contrast.young), factors(contrast.density));
-    Simulator::new(body, &scene.method()).map_err(|refusal| refused(scene.refused(refusal)))
+    Simulator::new(body, &setup.method()).map_err(refused)
 }

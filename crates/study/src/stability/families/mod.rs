@@ -22,7 +22,16 @@ mod slivers;
 mod stability_limits;
 mod stiffness_and_step;
 
-use super::case::Case;
+// What the families have in common.
+use super::case::{Case, Cell, Finding, Map, Outcome, SMALLEST_J};
+use super::initial_state::{CENTRE, Random, TANGLES, Tangle, distance_from_rest, largest_speed, place, place_moving};
+use super::march::{march, march_with};
+use super::setup::{
+    EndMotion, Grid, LAWS, NEO_HOOKEAN, Setup, clamp, clamp_within, damp, dynamic, gravity, iterated, lump, moved_box,
+    prescribed_end, refused, turned,
+};
+use super::theory::{self, Scheme, clamped, excite, forecast, try_forecast, unit_omega};
+use crate::study::{Deadline, pairs};
 
 /// The cases of all families.
 pub fn cases(quick: bool) -> Vec<Case> {

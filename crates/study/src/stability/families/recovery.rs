@@ -11,12 +11,8 @@ use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
+use super::*;
 use crate::scenes::{Elements, LINEAR};
-use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::initial_state::{CENTRE, Random, distance_from_rest, place};
-use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText};
-use crate::study::Deadline;
 
 const FAMILY: &str = "recovery";
 
@@ -33,12 +29,8 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 
 /// Adds the cases with these elements and so many seeds.
 pub fn add_of(cases: &mut Vec<Case>, elements: Elements, seeds: u64) {
-    for (name, tangle, expected) in TANGLES {
-        for seed in 0..seeds {
-            for is_clamped in [true, false] {
-                cases.push(recovering(name, tangle, expected, is_clamped, seed, elements));
-            }
-        }
+    for (((name, tangle, expected), seed), is_clamped) in pairs(pairs(TANGLES, 0..seeds), [true, false]) {
+        cases.push(recovering(name, tangle, expected, is_clamped, seed, elements));
     }
 }
 
@@ -99,18 +91,18 @@ pub const MARGIN_IS: &str = "distance from rest / 1e-3 of the length; recovered 
 
 fn recovering(name: &str, tangle: Tangle, expected: Outcome, is_clamped: bool, seed: u64, elements: Elements) -> Case {
     let body = match elements.order {
-        1 => SceneText::finer(Integrator::ImplicitEuler, "stable_neo_hookean"),
-        _ => SceneText::small(Integrator::ImplicitEuler, "stable_neo_hookean"),
+        1 => Setup::finer(Integrator::ImplicitEuler, "stable_neo_hookean"),
+        _ => Setup::small(Integrator::ImplicitEuler, "stable_neo_hookean"),
     };
-    let text = SceneText { dt: 0.05, poisson: 0.4, elements, ..body };
-    let text = if is_clamped { text.with(CLAMPED) } else { text }.with(DAMPED);
+    let setup = Setup { dt: 0.05, poisson: 0.4, elements, ..body };
+    let setup = setup.with_if(is_clamped, clamp).with(damp);
     // Quadratic elements reach J > 0 while their edges still cross.
     let is_free_to_turn = !is_clamped && elements.order == 1;
     let expected = if name == "reflected" && !is_free_to_turn { Outcome::Untangles } else { expected };
     let name = format!("{name}, {}", if is_clamped { "clamped" } else { "free" });
-    let parameters = format!("E = 1e5 Pa, nu = 0.4, dt = {} s, up to {STEPS} steps", text.dt);
-    let case = text.clone().case(FAMILY, name, parameters, move |deadline| {
-        let (mut simulation, mut random) = (text.build()?, Random::new(seed));
+    let parameters = format!("E = 1e5 Pa, nu = 0.4, dt = {} s, up to {STEPS} steps", setup.dt);
+    let case = setup.case(FAMILY, name, parameters, move |setup, deadline| {
+        let (mut simulation, mut random) = (setup.build()?, Random::new(seed));
         let mut tangled = tangle(&mut random);
         place(&mut simulation, |X| tangled(&mut random, X) + PERTURBATION * random.vector());
         Ok(back_at_rest(&mut simulation, STEPS, is_clamped, deadline))
@@ -121,13 +113,14 @@ fn recovering(name: &str, tangle: Tangle, expected: Outcome, is_clamped: bool, s
 /// Marches, and compares a clamped body with its position at rest, a free body with its shape at rest.
 pub fn back_at_rest(simulation: &mut Simulator<f64>, steps: usize, is_clamped: bool, deadline: Deadline) -> Finding {
     let end = march(simulation, steps, deadline);
-    if let Some(trouble) = end.trouble().filter(|trouble| trouble.outcome != Outcome::Inverts) {
+    if let Err(trouble) = end.survived()
+        && trouble.outcome != Outcome::Inverts
+    {
         return trouble;
     }
     let distance = if is_clamped { distance_from_rest(simulation) } else { change_of_shape(simulation) };
     let (J, element) = simulation.min_J();
-    let speeds = simulation.state().v.iter().map(|v| Vector3::from(*v).norm());
-    let speed = speeds.fold(0.0, f64::max) / simulation.system().length;
+    let speed = largest_speed(simulation);
     let outcome = match (J > 0.0, distance <= REST, speed <= STILL) {
         (true, true, _) => Outcome::Recovers,
         (true, false, true) => Outcome::Untangles,

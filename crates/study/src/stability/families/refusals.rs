@@ -1,38 +1,43 @@
 //! Unusable scenes and meshes, which an error that names the element or key must refuse.
 
-use fem_model::Integrator;
 use std::path::Path;
 
+use fem_mesh::TetrahedralMesh;
+use fem_model::Integrator;
+use fem_scene::parse;
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::scene_text::{CLAMPED, SceneText};
-use fem_mesh::TetrahedralMesh;
-use fem_scene::parse;
+use super::*;
 
 const FAMILY: &str = "refusals";
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>) {
     for (name, from, to, names) in FIELDS {
-        cases.push(case(name, format!("`{}`", to.replace('\n', "; ")), names, move || {
-            let text =
-                SceneText::small(Integrator::ImplicitEuler, "neo_hookean").with(CLAMPED).text().replace(from, to);
-            match parse(&text, Path::new("case.toml")) {
-                Ok(scene) => fem_scene::body(&scene, Path::new("")).map(|_| ()).map_err(|error| error.to_string()),
-                Err(error) => Err(error.to_string()),
-            }
+        cases.push(refusal(name, format!("`{}`", to.replace('\n', "; ")), names, move || {
+            let scene = parse(&scene(Integrator::ImplicitEuler).replace(from, to), Path::new("case.toml"));
+            let body = scene.and_then(|scene| fem_scene::body(&scene, Path::new("")));
+            body.map(|_| ()).map_err(|error| error.to_string())
         }));
     }
     for (name, spoil, names) in MESHES {
-        cases.push(case(name, "a box of 12 vertices and 12 tetrahedra".to_owned(), names, move || {
-            let mut mesh =
-                fem_mesh::box_mesh([2.0, 1.0, 1.0], 1, fem_mesh::Pattern::Kuhn).map_err(|error| error.to_string())?;
-            spoil(&mut mesh);
-            let text = SceneText::small(Integrator::ImplicitEuler, "neo_hookean");
-            text.build_on(mesh).map(|_| ()).map_err(|finding| finding.note)
+        cases.push(refusal(name, "a box of 12 vertices and 12 tetrahedra".to_owned(), names, move || {
+            let spoiled = moved_box([2.0, 1.0, 1.0], 1, |x| *x).and_then(|mut mesh| {
+                spoil(&mut mesh);
+                Setup::small(Integrator::ImplicitEuler, "neo_hookean").build_on::<f64>(mesh)
+            });
+            spoiled.map(|_| ()).map_err(|finding| finding.note)
         }));
     }
+}
+
+/// A scene file of a clamped box.
+pub fn scene(integrator: Integrator) -> String {
+    format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 1 }}\n[material]\nmodel = \"neo_hookean\"\n\
+         young = 1e5\npoisson = 0.3\ndensity = 1e3\n[time]\ndt = 1e-2\nintegrator = \"{}\"\n[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n",
+        integrator.name()
+    )
 }
 
 /// Name of the defect, text to replace, replacement, and the words that the error must contain.
@@ -86,7 +91,8 @@ fn flatten(mesh: &mut TetrahedralMesh, x: f64, y: f64, z: f64) {
     }
 }
 
-fn case(
+/// A case that must be refused by an error with some words.
+pub fn refusal(
     name: &str,
     parameters: String,
     names: &'static str,

@@ -4,10 +4,7 @@ use fem_mesh::TetrahedralMesh;
 use fem_model::Integrator;
 use nalgebra::Vector3;
 
-use crate::stability::case::{Case, Finding};
-use crate::stability::forecast::excite;
-use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, SceneText, gravity, moved_box};
+use super::*;
 
 const FAMILY: &str = "slivers";
 
@@ -16,15 +13,10 @@ const ASPECT: f64 = 1e6;
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
-    for thin in [Thin::Sheet, Thin::Needle] {
-        for model in ["neo_hookean", "stable_neo_hookean"] {
-            for integrator in
-                [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler, Integrator::Static, Integrator::Verlet]
-            {
-                let text = SceneText::small(integrator, model);
-                cases.push(sliver(thin, text, if quick { 10 } else { 100 }));
-            }
-        }
+    let methods =
+        [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler, Integrator::Static, Integrator::Verlet];
+    for ((thin, law), integrator) in pairs(pairs([Thin::Sheet, Thin::Needle], NEO_HOOKEAN), methods) {
+        cases.push(sliver(thin, Setup::small(integrator, law), if quick { 10 } else { 100 }));
     }
 }
 
@@ -50,9 +42,9 @@ fn mesh(thin: Thin) -> Result<TetrahedralMesh, Finding> {
 }
 
 /// A clamped body with such a mesh under its weight.
-pub fn sliver(thin: Thin, text: SceneText, steps: usize) -> Case {
-    let integrator = text.integrator;
-    let mut text = text.with(CLAMPED).with(&gravity([0.0, 0.0, -2.0]));
+pub fn sliver(thin: Thin, setup: Setup, steps: usize) -> Case {
+    let integrator = setup.integrator;
+    let setup = setup.with(clamp).with(gravity([0.0, 0.0, -2.0]));
     let steps = if integrator == Integrator::Static { 1 } else { steps };
     let step = if integrator == Integrator::Verlet { "half of the largest stable step" } else { "0.01 s" };
     let name = match thin {
@@ -60,10 +52,11 @@ pub fn sliver(thin: Thin, text: SceneText, steps: usize) -> Case {
         Thin::Needle => "crossing layers with needles",
     };
     let parameters = format!("aspect ratio {ASPECT:e}, dt = {step}, {steps} steps");
-    text.clone().case(FAMILY, name, parameters, move |deadline| {
-        if text.integrator == Integrator::Verlet {
-            text.dt = 1.0 / excite(&mut text.build_on(mesh(thin)?)?, 0.0)?.omega;
+    setup.case(FAMILY, name, parameters, move |setup, deadline| {
+        let mut setup = setup.clone();
+        if setup.integrator == Integrator::Verlet {
+            setup.dt = 1.0 / excite(&mut setup.build_on(mesh(thin)?)?, 0.0)?.omega;
         }
-        Ok(march(&mut text.build_on(mesh(thin)?)?, steps, deadline).survival())
+        Ok(march(&mut setup.build_on::<f64>(mesh(thin)?)?, steps, deadline).survival())
     })
 }

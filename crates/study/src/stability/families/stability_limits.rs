@@ -4,12 +4,7 @@ use fem_engine::simulator::Simulator;
 use fem_model::Integrator;
 use fem_model::simulation::Simulation;
 
-use crate::stability::case::{Case, Finding, Outcome};
-use crate::stability::forecast::{clamped, excite, forecast, try_forecast};
-use crate::stability::march::march;
-use crate::stability::scene_text::{LUMPED, SceneText, dynamic};
-use crate::stability::theory::{self, Scheme};
-use crate::study::Deadline;
+use super::*;
 
 const FAMILY: &str = "stability limits";
 
@@ -20,60 +15,58 @@ const MOST: usize = 40_000;
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let parts: &[f64] = if quick { &[0.99, 1.01] } else { &[0.5, 0.9, 0.98, 0.99, 1.01, 1.02, 1.1, 2.0] };
     let schemes = [Integrator::SemiImplicitEuler, Integrator::Verlet, Integrator::Rk4].map(Scheme::Of);
-    for scheme in schemes.into_iter().chain([Scheme::FoxGoodwin]) {
-        for mass in ["", LUMPED] {
-            cases.extend(parts.iter().map(|&part| near(scheme, "linear", mass, part)));
-            // Natural frequencies of the nonlinear material change with the amplitude, by less than a tenth.
-            cases.extend([0.9, 1.1].map(|part| near(scheme, "neo_hookean", mass, part)));
-        }
+    for (scheme, is_lumped) in pairs(schemes.into_iter().chain([Scheme::FoxGoodwin]), [false, true]) {
+        cases.extend(parts.iter().map(|&part| near(scheme, "linear", is_lumped, part)));
+        // Natural frequencies of the nonlinear material change with the amplitude, by less than a tenth.
+        cases.extend([0.9, 1.1].map(|part| near(scheme, "neo_hookean", is_lumped, part)));
     }
-    // The other three have more roots or stages, whose sum shows no rate at first; tests of the engine measure their damping.
-    for integrator in dynamic()
-        .filter(|integrator| ![Integrator::GeneralizedAlpha, Integrator::Bdf2, Integrator::Bathe].contains(integrator))
-    {
-        for z in [0.1, 0.5, 1.0, 1.9, 2.5, 3.0, 30.0] {
-            cases.push(growing(integrator, z));
-        }
-    }
+    // They have more roots or stages, whose sum shows no rate at first; tests of the engine measure their damping.
+    let others = [Integrator::GeneralizedAlpha, Integrator::Bdf2, Integrator::Bathe];
+    let measured = dynamic().filter(|integrator| !others.contains(integrator));
+    let growths = pairs(measured, [0.1, 0.5, 1.0, 1.9, 2.5, 3.0, 30.0]);
+    cases.extend(growths.map(|(integrator, z)| growing(integrator, z)));
 }
 
 /// At a part of the stability limit for the body's own mesh, mass and stiffness.
-fn near(scheme: Scheme, model: &'static str, mass: &'static str, part: f64) -> Case {
+fn near(scheme: Scheme, law: &'static str, is_lumped: bool, part: f64) -> Case {
     let z = part * theory::limit(scheme).unwrap_or(f64::INFINITY);
     let forecast = forecast(scheme, z, MOST);
-    let (integrator, method, note) = match scheme {
-        Scheme::FoxGoodwin => (Integrator::Newmark, "[newmark]\nbeta = 0.083333333333\n", ", beta = 1/12"),
-        Scheme::Of(integrator) => (integrator, "", ""),
+    let (setup, note) = match scheme {
+        Scheme::FoxGoodwin => {
+            let newmark = clamped(Integrator::Newmark, law, 1e5, 1.0);
+            (newmark.set(|method| method.newmark.beta = 0.083333333333), ", beta = 1/12")
+        }
+        Scheme::Of(integrator) => (clamped(integrator, law, 1e5, 1.0), ""),
     };
-    let text = clamped(integrator, model, 1e5, 1.0).with(mass).with(method);
-    let name = if mass.is_empty() { "consistent" } else { "lumped" };
+    let setup = setup.with_if(is_lumped, lump);
+    let name = if is_lumped { "lumped" } else { "consistent" };
     let parameters = format!("E = 1e5 Pa, {name} mass{note}, dt omega_max = {z:.4}, {} steps", forecast.steps);
     Case {
         expected: forecast.expected,
         margin_is: "dt / dt_limit; stable below 1",
-        ..text.clone().case(FAMILY, format!("{part} of the largest stable step"), parameters, move |deadline| {
-            try_forecast(&with_step(text, z)?, forecast, deadline)
+        ..setup.case(FAMILY, format!("{part} of the largest stable step"), parameters, move |setup, deadline| {
+            try_forecast(&with_step(setup, z)?, forecast, deadline)
         })
     }
 }
 
 /// Sets the time step at which ω_max dt = z.
-fn with_step(text: SceneText, z: f64) -> Result<SceneText, Finding> {
-    let omega = excite(&mut text.build()?, 0.0)?.omega;
-    Ok(SceneText { dt: z / omega, ..text })
+fn with_step(setup: &Setup, z: f64) -> Result<Setup, Finding> {
+    let omega = excite(&mut setup.build()?, 0.0)?.omega;
+    Ok(Setup { dt: z / omega, ..setup.clone() })
 }
 
 /// Growth or decay of the highest mode against theory.
 fn growing(integrator: Integrator, z: f64) -> Case {
     let growth = theory::growth(integrator, z);
     let explodes = growth > 0.0 && steps_to_overflow(growth) <= MOST;
-    let text = clamped(integrator, "linear", 1e5, 1.0);
+    let setup = clamped(integrator, "linear", 1e5, 1.0);
     let parameters = format!("dt omega_max = {z}, theory: {growth:.4e} e-folds per step");
     Case {
         expected: if explodes { Outcome::Explodes } else { Outcome::Survives },
         margin_is: "measured e-folds per step over those of theory; must be within 1 % of 1",
-        ..text.clone().case(FAMILY, "growth rate of the highest mode", parameters, move |deadline| {
-            measured(&with_step(text, z)?, growth, deadline)
+        ..setup.case(FAMILY, "growth rate of the highest mode", parameters, move |setup, deadline| {
+            measured(&with_step(setup, z)?, growth, deadline)
         })
     }
 }
@@ -86,8 +79,8 @@ fn steps_to_overflow(growth: f64) -> usize {
 /// First steps, in which semi-implicit integrators approach their growth rate.
 const SETTLED: usize = 4;
 
-fn measured(text: &SceneText, growth: f64, deadline: Deadline) -> Result<Finding, Finding> {
-    let mut simulation = text.build()?;
+fn measured(setup: &Setup, growth: f64, deadline: Deadline) -> Result<Finding, Finding> {
+    let mut simulation = setup.build()?;
     excite(&mut simulation, 1.0)?;
     simulation.accept_gain(true);
     // Few enough steps that decay does not reach round-off and growth does not overflow.

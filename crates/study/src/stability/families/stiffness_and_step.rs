@@ -1,10 +1,7 @@
 //! Soft to stiff bodies, short to long time steps: each integrator with each material.
 
+use super::*;
 use crate::scenes::LINEAR;
-use crate::stability::case::{Case, Outcome, SMALLEST_J};
-use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
-use crate::stability::scene_text::{LAWS, SceneText, dynamic, gravity};
-use crate::stability::theory;
 use fem_model::Integrator;
 
 const FAMILY: &str = "stiffness and time step";
@@ -28,33 +25,25 @@ fn margin_is(integrator: Integrator) -> &'static str {
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let omega = unit_omega("linear", LINEAR);
     let laws: &[&str] = if quick { &LAWS[3..] } else { &LAWS };
-    for integrator in dynamic() {
-        for &model in laws {
-            for young in YOUNG {
-                for dt in DT {
-                    cases.push(vibrating(clamped(integrator, model, young, dt), omega, quick));
-                }
-            }
-        }
+    for (((integrator, &law), young), dt) in pairs(pairs(pairs(dynamic(), laws), YOUNG), DT) {
+        cases.push(vibrating(clamped(integrator, law, young, dt), omega, quick));
     }
-    for model in ["neo_hookean", "stable_neo_hookean"] {
-        for young in if quick { &YOUNG[..1] } else { &YOUNG } {
-            add_weighed(cases, 1.0, |integrator, dt| clamped(integrator, model, *young, dt));
-        }
+    for (law, &young) in pairs(NEO_HOOKEAN, if quick { &YOUNG[..1] } else { &YOUNG }) {
+        add_weighed(cases, 1.0, |integrator, dt| clamped(integrator, law, young, dt));
     }
 }
 
 /// A clamped body whose highest mode at E = 1 Pa has this frequency, 1/s.
-pub fn vibrating(text: SceneText, unit_omega: f64, quick: bool) -> Case {
-    let SceneText { integrator, model, young, dt, .. } = text;
+pub fn vibrating(setup: Setup, unit_omega: f64, quick: bool) -> Case {
+    let Setup { integrator, law, young, dt, .. } = setup;
     let z = unit_omega * young.sqrt() * dt;
     let forecast = forecast(integrator, z, if quick { 2000 } else { 20_000 });
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, dt omega_max = {z:.3e}, {} steps", forecast.steps);
     Case {
-        expected: thrown(integrator, model, z).unwrap_or(forecast.expected),
+        expected: thrown(integrator, law, z).unwrap_or(forecast.expected),
         margin_is: margin_is(integrator),
-        ..text.clone().case(FAMILY, "clamped body, vibrating", parameters, move |deadline| {
-            try_forecast(&text, forecast, deadline)
+        ..setup.case(FAMILY, "clamped body, vibrating", parameters, move |setup, deadline| {
+            try_forecast(setup, forecast, deadline)
         })
     }
 }
@@ -67,27 +56,26 @@ fn thrown(integrator: Integrator, model: &str, z: f64) -> Option<Outcome> {
 }
 
 /// Under a weight of a part of the stiffness, ρ g L = part E: sagging and hanging, in motion and in equilibrium.
-pub fn add_weighed(cases: &mut Vec<Case>, part: f64, clamped: impl Fn(Integrator, f64) -> SceneText) {
+pub fn add_weighed(cases: &mut Vec<Case>, part: f64, clamped: impl Fn(Integrator, f64) -> Setup) {
     let methods = [
         (Integrator::ImplicitEuler, DT[0]),
         (Integrator::ImplicitEuler, DT[1]),
         (Integrator::ImplicitEuler, DT[2]),
         (Integrator::Static, 1.0),
     ];
-    for (integrator, dt) in methods {
-        for (name, direction) in [("sagging", [0.0, 0.0, -1.0]), ("hanging", [1.0, 0.0, 0.0])] {
-            let text = clamped(integrator, dt);
-            let g = part * text.young / (text.density * 2.0);
-            let text = text.with(&gravity(direction.map(|x| x * g)));
-            cases.push(weighed(name, part, text, if integrator == Integrator::Static { 1 } else { 50 }));
-        }
+    let directions = [("sagging", [0.0, 0.0, -1.0]), ("hanging", [1.0, 0.0, 0.0])];
+    for ((integrator, dt), (name, direction)) in pairs(methods, directions) {
+        let setup = clamped(integrator, dt);
+        let g = part * setup.young / (setup.density * 2.0);
+        let setup = setup.with(gravity(direction.map(|x| x * g)));
+        cases.push(weighed(name, part, setup, if integrator == Integrator::Static { 1 } else { 50 }));
     }
 }
 
-fn weighed(name: &str, part: f64, text: SceneText, steps: usize) -> Case {
+fn weighed(name: &str, part: f64, setup: Setup, steps: usize) -> Case {
     let of = if part == 1.0 { "E".to_owned() } else { format!("{part} E") };
     let case = format!("clamped body, {name} under a weight of {of} times its cross-section");
-    let nu = if text.poisson == 0.3 { String::new() } else { format!("nu = {}, ", text.poisson) };
-    let parameters = format!("{nu}E = {:e} Pa, dt = {:e} s, {steps} steps", text.young, text.dt);
-    text.surviving(FAMILY, case, parameters, steps)
+    let nu = if setup.poisson == 0.3 { String::new() } else { format!("nu = {}, ", setup.poisson) };
+    let parameters = format!("{nu}E = {:e} Pa, dt = {:e} s, {steps} steps", setup.young, setup.dt);
+    setup.surviving(FAMILY, case, parameters, steps)
 }

@@ -7,6 +7,7 @@ use super::meshes::{StudyMeshes, most_reference_seconds};
 use crate::runs::plan;
 use crate::space::closed_forms;
 use crate::space::nested::{self, Level, RichardsonEstimate};
+use crate::study::Result;
 use fem_model::Integrator;
 use fem_scene::Scene;
 
@@ -18,7 +19,7 @@ const SECONDS_OF_AN_ELEMENT: f64 = 2e-7;
 
 impl StudyMeshes<'_> {
     /// Errors in space. `None` if the scene is no box, has a closed form, or would take too long.
-    pub fn nested(&mut self, base: &Scene, study: &mut SceneStudy) -> Result<Option<RichardsonEstimate>, String> {
+    pub fn nested(&mut self, base: &Scene, study: &mut SceneStudy) -> Result<Option<RichardsonEstimate>> {
         let is_static = base.time.integrator == Integrator::Static;
         if closed_forms::uniaxial(base).is_some() || (!is_static && study.fastest == 0.0) {
             return Ok(None);
@@ -58,7 +59,7 @@ impl StudyMeshes<'_> {
         number: usize,
         cells: usize,
         study: &mut SceneStudy,
-    ) -> Result<Result<Level, String>, String> {
+    ) -> Result<Result<Level, String>> {
         let is_static = base.time.integrator == Integrator::Static;
         let mut scene = base.clone();
         if let Some(cuboid) = &mut scene.mesh.cuboid {

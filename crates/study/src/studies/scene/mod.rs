@@ -1,8 +1,6 @@
 //! The study of one scene: references, runs, times, Pareto front.
 
-mod case;
 mod levels;
-mod mesh;
 mod meshes;
 
 use std::collections::HashMap;
@@ -14,6 +12,7 @@ use crate::runs::pareto::{Contender, standings};
 use crate::runs::plan::{self, Extent, Ladder, PlannedRun};
 use crate::runs::row::{Row, Times};
 use crate::space::nested::RichardsonEstimate;
+use crate::study::Result;
 use fem_model::Integrator;
 use fem_output::quantile;
 use fem_scene::Scene;
@@ -67,7 +66,7 @@ pub enum Question {
 }
 
 /// Studies a scene.
-pub fn study(settings: &Settings, scene: &Scene, question: Question) -> Result<SceneStudy, String> {
+pub fn study(settings: &Settings, scene: &Scene, question: Question) -> Result<SceneStudy> {
     super::make_folders(&settings.out)?;
     let base = plan::base(scene, settings.is_quick);
     let own_steps = base.time.steps.unwrap_or(50);
@@ -122,7 +121,7 @@ fn first_runs(
     bodies: &mut StudyMeshes,
     ladders: Vec<Ladder>,
     study: &mut SceneStudy,
-) -> Result<Vec<(PlannedRun, RunResult)>, String> {
+) -> Result<Vec<(PlannedRun, RunResult)>> {
     let (all, mut count) = (ladders.iter().map(Vec::len).sum(), 0);
     let mut done = Vec::new();
     for ladder in ladders {

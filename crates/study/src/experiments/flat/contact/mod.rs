@@ -1,10 +1,8 @@
 //! Contact with planes and friction beside closed forms.
 
-pub mod ball;
-pub mod cylinder;
+pub mod block;
+pub mod hertz;
 pub mod impact;
-pub mod incline;
-pub mod resting;
 #[cfg(test)]
 mod tests;
 
@@ -13,7 +11,7 @@ use std::path::Path;
 use fem_engine::simulator::Simulator;
 use fem_model::{ContactTreatment, Integrator};
 
-use crate::study::{Mark, Part, Table};
+use crate::study::{Mark, Part, Result, Table};
 
 /// The methods whose contact is compared with closed forms.
 pub const METHODS: [Integrator; 6] = [
@@ -31,80 +29,71 @@ fn has_barrier(method: Integrator) -> bool {
 }
 
 /// Runs all cases, with implicit Euler and, in a full run, every method that supports contact.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let methods = if quick { &METHODS[..1] } else { &METHODS[..] };
     let (mut marks, mut tables) = (Vec::new(), Vec::new());
     add_resting(&mut marks, &mut tables)?;
     for &method in methods {
-        add_incline(&mut marks, method)?;
+        marks.extend(on_an_incline(method)?);
     }
     add_stopping(&mut marks, &mut tables, methods)?;
     let thrown = [Integrator::Verlet, Integrator::SemiImplicitEuler, Integrator::ImplicitEuler];
     for method in thrown.into_iter().take(if quick { 1 } else { 3 }) {
-        add_impact(&mut marks, method)?;
+        marks.extend(at_a_wall(method)?);
     }
     add_hertz(&mut marks, &mut tables, quick)?;
     let text = format!(
         "A block at rest, a block on an incline and on a level floor with friction {}, a bar that hits a wall (c is its wave speed), and Hertz's contact of \
          a cylinder and of a ball with a plane (Johnson, Contact Mechanics, 1985, sections 4.2 and 4.3). Implicit methods have a barrier and smoothed friction, explicit \
          ones impulses. The thesis multiplies the tangential velocity of touching nodes in each substep.",
-        incline::FRICTION
+        block::FRICTION
     );
     Ok(Part::new(text).marks(marks).tables(tables))
 }
 
-fn add_resting(marks: &mut Vec<Mark>, tables: &mut Vec<Table>) -> Result<(), String> {
+fn add_resting(marks: &mut Vec<Mark>, tables: &mut Vec<Table>) -> Result<()> {
     let mut rows = Vec::new();
     for (young, tolerance) in [(1e7, 1e-5), (2e11, 1e-8)] {
-        let block = resting::block(young)?;
-        let (balance, error) = (block.force / resting::WEIGHT - 1.0, (block.gap - block.root) / resting::ACTIVATION);
-        marks.extend([
-            Mark::new(
-                format!("a block of E = {young:e} Pa rests with Σ F = m g within 1e-8"),
-                format!("{balance:.1e}"),
-                balance.abs() <= 1e-8,
-            ),
-            // A soft block's nodes lean outwards by its strain.
-            Mark::new(
-                format!("its gap is where the barrier's force is the weight, within {tolerance:e} of the activation distance"),
-                format!("{error:.1e}"),
-                error.abs() <= tolerance,
-            ),
-        ]);
-        let [gap, root] = [block.gap, block.root].map(|length| format!("{length:.12e}"));
-        rows.push(vec![format!("{young:e}"), gap, root, format!("{:.9}", block.force), block.unconverged.to_string()]);
+        let block::Block { gap, root, force, unconverged } = block::block(young)?;
+        let (balance, error) = (force / block::WEIGHT - 1.0, (gap - root) / block::ACTIVATION);
+        let carried = format!("a block of E = {young:e} Pa rests with Σ F = m g within 1e-8");
+        marks.push(Mark::new(carried, format!("{balance:.1e}"), balance.abs() <= 1e-8));
+        // A soft block's nodes lean outwards by its strain.
+        let place = "its gap is where the barrier's force is the weight";
+        let statement = format!("{place}, within {tolerance:e} of the activation distance");
+        marks.push(Mark::new(statement, format!("{error:.1e}"), error.abs() <= tolerance));
+        let [gap, root] = [gap, root].map(|length| format!("{length:.12e}"));
+        rows.push(vec![format!("{young:e}"), gap, root, format!("{force:.9}"), unconverged.to_string()]);
     }
-    let head = [">E (Pa)", ">gap (m)", ">root (m)", ">force (N)", ">of 2000 steps unconverged"];
-    tables.push(Table::new("flat-contact-resting", &head, rows));
+    let head = ">E (Pa) | >gap (m) | >root (m) | >force (N) | >of 2000 steps unconverged";
+    tables.push(Table::new("flat-contact-resting", head, rows));
     Ok(())
 }
 
-fn add_incline(marks: &mut Vec<Mark>, method: Integrator) -> Result<(), String> {
+fn on_an_incline(method: Integrator) -> Result<[Mark; 2]> {
     let name = method.name();
-    let creep = incline::creep(method)?;
-    marks.push(Mark::new(
-        format!("{name}: at tan θ = 0.99 μ a block sticks, or creeps by at most ε_v t = 1e-3 m in a second"),
-        format!("{creep:.1e} m"),
-        creep.abs() <= 1e-3,
-    ));
-    let [found, expected] = incline::acceleration(method, 1.01)?;
-    marks.push(Mark::new(
-        format!("{name}: at tan θ = 1.01 μ it accelerates by g (sin θ − μ cos θ) within 1 %"),
-        format!("{found:.5} of {expected:.5} m/s²"),
-        (found - expected).abs() <= 0.01 * expected,
-    ));
-    Ok(())
+    let creep = block::creep(method)?;
+    let sticks = format!("{name}: at tan θ = 0.99 μ a block sticks, or creeps by at most ε_v t = 1e-3 m in a second");
+    let [found, expected] = block::acceleration(method, 1.01)?;
+    Ok([
+        Mark::new(sticks, format!("{creep:.1e} m"), creep.abs() <= 1e-3),
+        Mark::new(
+            format!("{name}: at tan θ = 1.01 μ it accelerates by g (sin θ − μ cos θ) within 1 %"),
+            format!("{found:.5} of {expected:.5} m/s²"),
+            (found - expected).abs() <= 0.01 * expected,
+        ),
+    ])
 }
 
-fn add_stopping(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, methods: &[Integrator]) -> Result<(), String> {
-    let expected = incline::STOPPING;
+fn add_stopping(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, methods: &[Integrator]) -> Result<()> {
+    let expected = block::STOPPING;
     let mut rows = Vec::new();
     for &method in methods {
         let name = method.name();
-        let frame = incline::frame(method);
+        let frame = block::frame(method);
         let counts = [1.0, 2.0, 4.0, 10.0, 40.0];
-        let ways = counts.map(|substeps| incline::way(method, frame / substeps));
-        let ways = ways.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let ways = counts.map(|substeps| block::way(method, frame / substeps));
+        let ways = ways.into_iter().collect::<Result<Vec<_>>>()?;
         let errors: Vec<f64> = ways.iter().map(|way| (way - expected).abs() / expected).collect();
         let order = (errors[0] / errors[2]).log2() / 2.0;
         marks.push(Mark::new(
@@ -124,15 +113,16 @@ fn add_stopping(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, methods: &[Integ
             rows.push(vec![name.to_owned(), substeps.to_string(), way, format!("{:.3}", 100.0 * error)]);
         }
     }
-    let head = ["method", ">substeps", ">distance (m)", ">error (%)"];
-    tables.push(Table::new("flat-contact-stopping", &head, rows));
+    let head = "method | >substeps | >distance (m) | >error (%)";
+    tables.push(Table::new("flat-contact-stopping", head, rows));
     Ok(())
 }
 
-fn add_impact(marks: &mut Vec<Mark>, method: Integrator) -> Result<(), String> {
+fn at_a_wall(method: Integrator) -> Result<[Mark; 3]> {
     let name = method.name();
     let impact::Impact { duration, stress, impulse_error } = impact::bar(method, 100, 1)?;
-    marks.extend([
+    let impulse = format!("{name}: the wall's impulse is the change of momentum within 1e-5");
+    Ok([
         Mark::new(
             format!("{name}: a bar of 100 elements touches a wall for 2 L/c within 2 %"),
             format!("{duration:.4} of {} s", impact::DURATION),
@@ -143,20 +133,15 @@ fn add_impact(marks: &mut Vec<Mark>, method: Integrator) -> Result<(), String> {
             format!("{stress:.1} of {} Pa", impact::STRESS),
             (stress / impact::STRESS - 1.0).abs() < 0.02,
         ),
-        Mark::new(
-            format!("{name}: the wall's impulse is the change of momentum within 1e-5"),
-            format!("{impulse_error:.1e}"),
-            impulse_error < 1e-5,
-        ),
-    ]);
-    Ok(())
+        Mark::new(impulse, format!("{impulse_error:.1e}"), impulse_error < 1e-5),
+    ])
 }
 
-fn add_hertz(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, quick: bool) -> Result<(), String> {
+fn add_hertz(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, quick: bool) -> Result<()> {
     let mut rows = Vec::new();
     let mut widths = Vec::new();
     for cells in if quick { &[4.0, 8.0][..] } else { &[4.0, 8.0, 16.0] } {
-        let [found, expected] = cylinder::widths(cylinder::WIDTH / cells)?;
+        let [found, expected] = hertz::widths(hertz::WIDTH / cells)?;
         let error = (found - expected).abs() / expected;
         rows.push(row("cylinder, half-width (m)", *cells, [found, expected]));
         widths.push(error);
@@ -168,7 +153,7 @@ fn add_hertz(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, quick: bool) -> Res
     ));
     let (mut forces, mut radii) = (Vec::new(), Vec::new());
     for cells in if quick { &[2.0, 3.0][..] } else { &[4.0, 8.0] } {
-        let ball::Hertz { force, radius, .. } = ball::contact(ball::RADIUS / cells)?;
+        let hertz::Hertz { force, radius, .. } = hertz::contact(hertz::RADIUS / cells)?;
         rows.push(row("ball, force (N)", *cells, force));
         rows.push(row("ball, radius (m)", *cells, radius));
         forces.push((force[0] / force[1] - 1.0).abs());
@@ -183,7 +168,7 @@ fn add_hertz(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, quick: bool) -> Res
             errors[1] <= bound && errors[1] < errors[0],
         ));
     }
-    tables.push(Table::new("flat-contact-hertz", &["body", ">a/h", ">found", ">Hertz", ">error (%)"], rows));
+    tables.push(Table::new("flat-contact-hertz", "body | >a/h | >found | >Hertz | >error (%)", rows));
     Ok(())
 }
 

@@ -2,14 +2,14 @@
 //! chapter V.
 
 use std::f64::consts::FRAC_PI_2;
-use std::fmt::Write as _;
 
 use fem_mesh::SurfaceMesh;
-use fem_model::BodyMesh;
 use fem_model::simulation::Diagnostics;
+use fem_model::{Axis, Body, BodyMesh, Integrator, Method, Motion, Plasticity, Selector};
 use nalgebra::Vector3;
 
-use crate::scenes::{double, step};
+use crate::scenes::{displaced, material, simulator, step};
+use crate::study::Result;
 
 /// Inner and outer radius, m.
 const INNER: f64 = 1.0;
@@ -33,10 +33,10 @@ pub fn elastic_pressure() -> f64 {
 }
 
 /// Pressure on the inside after each of `load_steps` equal steps of the inner wall's displacement, which is `distance` (m) at the end; Pa.
-pub fn pressures(rings: usize, sectors: usize, distance: f64, load_steps: usize) -> Result<Vec<f64>, String> {
+pub fn pressures(rings: usize, sectors: usize, distance: f64, load_steps: usize) -> Result<Vec<f64>> {
     let mesh = quarter(rings, sectors);
-    let flat = BodyMesh::flat(mesh.clone(), 1.0);
-    let mut simulation = double(&scene(&mesh, sectors, distance, load_steps), Some(flat))?;
+    let method = Method { load_steps, ..Method::new(Integrator::Static, 1.0) };
+    let mut simulation = simulator(widened(&mesh, sectors, distance)?, &method)?;
     let mut pressure = || {
         step(&mut simulation)?;
         let outward = |(x, force): (&Vector3<f64>, [f64; 3])| x.normalize().dot(&Vector3::from(force));
@@ -71,24 +71,18 @@ fn quarter(rings: usize, sectors: usize) -> SurfaceMesh {
     SurfaceMesh::new(vertices, triangles)
 }
 
-/// The ring whose inner nodes move outwards by `distance` in so many load steps.
-fn scene(mesh: &SurfaceMesh, sectors: usize, distance: f64, load_steps: usize) -> String {
-    let mut text = format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 1], cells_per_unit = 1 }}\n[material]\n\
-         model = \"hencky\"\nyoung = {YOUNG:e}\npoisson = {POISSON}\ndensity = 1.0\n[plasticity]\nmodel = \"j2\"\n\
-         yield_stress = {YIELD}\n[time]\nintegrator = \"static\"\n[static]\nload_steps = {load_steps}\n"
-    );
+/// The ring whose inner nodes move outwards by `distance`, m.
+fn widened(mesh: &SurfaceMesh, sectors: usize, distance: f64) -> Result<Body> {
+    let mut body = Body::new(BodyMesh::flat(mesh.clone(), 1.0), material("hencky", YOUNG, POISSON, 1.0)?)?;
+    body.plasticity = Some(Plasticity::J2 { yield_stress: YIELD, hardening: 0.0 });
     for (node, x) in mesh.vertices.iter().enumerate().take(sectors + 1) {
-        let u = distance * x / INNER;
-        let table = format!("[[prescribed]]\nnodes = [{node}]\ndisplacement = [{:e}, {:e}, 0]\n", u.x, u.y);
-        text += &(table + "components = [\"x\", \"y\"]\n");
+        let outwards = Motion::by((distance * x / INNER).into());
+        body = body.prescribe(&Selector::Nodes(vec![node]), [true, true, false], outwards)?;
     }
-    for (axis, i) in [("x", 0), ("y", 1)] {
-        let on_axis = |(_, x): &(usize, &Vector3<f64>)| x[i].abs() < 1e-12;
-        let nodes: Vec<_> =
-            mesh.vertices.iter().enumerate().skip(sectors + 1).filter(on_axis).map(|(node, _)| node).collect();
-        let _ =
-            writeln!(text, "[[prescribed]]\nnodes = {nodes:?}\ndisplacement = [0, 0, 0]\ncomponents = [\"{axis}\"]");
+    for axis in [Axis::X, Axis::Y] {
+        let is_on_axis = |node: &usize| mesh.vertices[*node][axis as usize].abs() < 1e-12;
+        let on_axis = (sectors + 1..mesh.vertices.len()).filter(is_on_axis).collect();
+        body = displaced(body, &Selector::Nodes(on_axis), axis, 0.0)?;
     }
-    text
+    Ok(body)
 }

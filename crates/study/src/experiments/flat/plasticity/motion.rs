@@ -2,24 +2,24 @@
 
 use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
+use fem_model::{Axis, Damping, DampingForm, Integrator, Method, Motion, Selector};
 
-use crate::scenes::{double, step, steps};
+use super::strip;
+use crate::scenes::{simulator, step, steps, thrown as throw};
+use crate::study::{Problem, Result};
 
 /// Bound of the plastic strain of the thrown strip.
 pub const MAXIMUM: f64 = 0.08;
 
-/// A strip of 2 × 1 m with λ = μ = 45 000 Pa that flows beyond a strain of 0.02.
-fn strip(method: &str, creep: f64, maximum: f64, rest: &str) -> String {
-    format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 4, pattern = \"kuhn\" }}\n[material]\nmodel = \"corotated\"\n\
-         young = 112500\npoisson = 0.25\ndensity = 140.5\n[plasticity]\nmodel = \"additive\"\nyield_strain = 0.02\ncreep = {creep}\n\
-         maximum = {maximum}\n[time]\n{method}\n{rest}"
-    )
-}
+/// Yield strain of the strips, and their cells per metre.
+const YIELD: f64 = 0.02;
+const CELLS: usize = 4;
 
-/// One end is thrown away from the other.
-const THROWN: &str =
-    "[[initial_velocity]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\nvelocity = [30, 3, 0]\n";
+/// The strip, one end of which is thrown away from the other, with velocity Verlet and steps of `dt`, s.
+fn pulled_apart(maximum: f64, dt: f64) -> Result<Simulator<f64>> {
+    let body = throw(strip(CELLS, YIELD, 20.0, maximum)?, &Selector::most(Axis::X), [30.0, 3.0, 0.0])?;
+    Ok(simulator(body, &Method::new(Integrator::Verlet, dt))?)
+}
 
 /// A run of the thrown strip.
 pub struct Thrown {
@@ -36,8 +36,8 @@ pub struct Thrown {
 }
 
 /// The strip, thrown apart, with velocity Verlet and so many steps of 0.1 ms.
-pub fn thrown(count: usize) -> Result<Thrown, String> {
-    let mut simulation = double(&strip("integrator = \"verlet\"\ndt = 1e-4", 20.0, MAXIMUM, THROWN), None)?;
+pub fn thrown(count: usize) -> Result<Thrown> {
+    let mut simulation = pulled_apart(MAXIMUM, 1e-4)?;
     let (mut largest, mut least, mut before) = (0.0f64, f64::INFINITY, 0.0);
     for _ in 0..count {
         step(&mut simulation)?;
@@ -63,15 +63,14 @@ pub struct Change {
 }
 
 /// Changes of the end under halving of the time step, each with the order that it and the one before show.
-pub fn orders() -> Result<Vec<(Change, Option<f64>)>, String> {
+pub fn orders() -> Result<Vec<(Change, Option<f64>)>> {
     let end = |dt: f64| {
-        let method = format!("integrator = \"verlet\"\ndt = {dt:e}");
-        let mut simulation = double(&strip(&method, 20.0, 10.0, THROWN), None)?;
+        let mut simulation = pulled_apart(10.0, dt)?;
         steps(&mut simulation, (0.032 / dt).round() as usize)?;
-        Ok::<_, String>(simulation.positions())
+        Ok::<_, Problem>(simulation.positions())
     };
     let times = [4e-4, 2e-4, 1e-4, 5e-5, 2.5e-5];
-    let ends = times.iter().map(|dt| end(*dt)).collect::<Result<Vec<_>, _>>()?;
+    let ends = times.iter().map(|dt| end(*dt)).collect::<Result<Vec<_>>>()?;
     let distances: Vec<f64> = ends.windows(2).map(|pair| (&pair[0] - &pair[1]).amax()).collect();
     let order = |i: usize| (i > 0).then(|| (distances[i - 1] / distances[i]).log2());
     Ok((0..distances.len()).map(|i| (Change { dt: times[i], distance: distances[i] }, order(i))).collect())
@@ -86,15 +85,16 @@ pub struct Released {
 }
 
 /// A strip that is stretched along x by a tenth until the excess over the yield strain has flowed, then free and damped.
-pub fn released() -> Result<Released, String> {
-    let method = "integrator = \"implicit_euler\"\ndt = 0.1";
-    let mut tables = "[damping]\nalpha = 4.0\n".to_owned();
+pub fn released() -> Result<Released> {
+    let damping = Damping { alpha: 4.0, beta: 0.0, form: DampingForm::default() };
+    let mut body = strip(CELLS, YIELD, 5.0, 0.5)?.damping(damping)?;
     // Nine columns and five rows of nodes, a quarter of a metre apart.
     for node in 0..45 {
-        let u = 0.1 * 0.25 * f64::from(node % 9);
-        tables += &format!("[[prescribed]]\nnodes = [{node}]\ndisplacement = [{u:e}, 0, 0]\nuntil = 5.0\n");
+        let stretched = Motion::by([0.1 * 0.25 * (node % 9) as f64, 0.0, 0.0]);
+        body = body.prescribe(&Selector::Nodes(vec![node]), [true; 3], stretched)?;
     }
-    let mut simulation = double(&strip(method, 5.0, 0.5, &tables), None)?;
+    body.dirichlet.iter_mut().for_each(|condition| condition.until = Some(5.0));
+    let mut simulation = simulator(body, &Method::new(Integrator::ImplicitEuler, 0.1))?;
     steps(&mut simulation, 50)?;
     let before = largest_stress(&simulation);
     steps(&mut simulation, 300)?;

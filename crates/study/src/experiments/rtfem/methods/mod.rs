@@ -1,25 +1,20 @@
 //! Comparison of methods: Newton's method and its variants, position-based methods and springs on the same bodies, with separate errors
 //! of the solver, of the time step and of the model.
 
-mod answers;
-mod bodies;
 mod case;
-mod contenders;
-mod converged;
 mod pages;
 mod runs;
 
 use std::path::Path;
 
-use super::setting::one_thread;
-use crate::study::{Mark, Part};
-use answers::{Compared, FIRST_AT, STIFF, Swept};
-use bodies::Shape;
-use case::Case;
-use contenders::ALL;
-use runs::{Limits, sweep};
+use fem_model::{Integrator, IterationSettings, Method};
 
-pub use bodies::block;
+use super::setting::one_thread;
+use crate::study::{Mark, Part, Result};
+use case::{Case, Shape, distance};
+use runs::{ALL, Compared, Contender, FIRST_AT, Limits, STIFF, Swept, sweep};
+
+pub use case::{LAW, block};
 
 /// Poisson's ratio of central springs in space and in the plane, and that of a nearly incompressible body.
 const OF_SPRINGS: [f64; 2] = [0.25, 1.0 / 3.0];
@@ -32,14 +27,14 @@ const YOUNGS: [f64; 4] = [1e4, 1e5, 1e6, 1e7];
 const PART_OF_A_SECOND: usize = 5;
 
 /// Runs all methods on all cases, one after the other on one thread.
-pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+pub fn run(_: &Path, quick: bool) -> Result<Part> {
     let limits = match quick {
         true => Limits { milliseconds: 10.0, iterations: 20 },
         false => Limits { milliseconds: 20.0, iterations: usize::MAX },
     };
     let compare = |case: Case| one_thread()?.install(|| compared(case, limits));
-    let found = cases(quick).into_iter().map(compare).collect::<Result<Vec<_>, _>>()?;
-    let mut marks = one_thread()?.install(|| converged::marks(quick))?;
+    let found = cases(quick).into_iter().map(compare).collect::<Result<Vec<_>>>()?;
+    let mut marks = one_thread()?.install(|| converged_ends(quick))?;
     marks.extend(springs_where_they_are_fair(&found));
     marks.push(every_run_is_counted(&found));
     marks.extend(newton_first(&found, quick));
@@ -78,7 +73,7 @@ fn cases(quick: bool) -> Vec<Case> {
     cases
 }
 
-fn compared(case: Case, limits: Limits) -> Result<Compared, String> {
+fn compared(case: Case, limits: Limits) -> Result<Compared> {
     let measures = case.measures()?;
     let methods =
         ALL.iter().map(|contender| Swept { contender, runs: sweep(&case, &measures, contender, limits) }).collect();
@@ -111,7 +106,7 @@ fn every_run_is_counted(found: &[Compared]) -> Mark {
 fn newton_first(found: &[Compared], quick: bool) -> Vec<Mark> {
     let stiff: Vec<&Compared> = found.iter().filter(|of| of.case.young >= STIFF).collect();
     let iterated = ALL.iter().filter(|contender| contender.is_iterated() && contender.has_solver_error());
-    let mark = |contender: &contenders::Contender| {
+    let mark = |contender: &Contender| {
         let before = |of: &&Compared| of.before_newton().into_iter().find(|(name, _)| *name == contender.name);
         let exceptions: Vec<String> = stiff
             .iter()
@@ -129,4 +124,25 @@ fn newton_first(found: &[Compared], quick: bool) -> Vec<Mark> {
         Mark::new(statement, ours, holds).unless(quick)
     };
     iterated.map(mark).collect()
+}
+
+/// Largest distance from the converged steps, over their largest displacement.
+const SAME: f64 = 1e-8;
+
+/// One mark for each method that promises the steps of implicit Euler.
+fn converged_ends(quick: bool) -> Result<Vec<Mark>> {
+    let cells = if quick { 1 } else { 3 };
+    let case = Case { shape: Shape::Beam, cells, young: 1e5, poisson: 0.25, rate: 60, steps: 6 };
+    let [rest, converged] = case.converged()?;
+    // A step ends when iterations no longer change the velocities.
+    let iterations = IterationSettings { count: 20_000, tolerance: Some(1e-13), ..IterationSettings::default() };
+    let mark = |(name, integrator): (&str, Integrator)| {
+        let [_, end] = case.ends(&Method { iterations, ..Method::new(integrator, case.dt()) })?;
+        let apart = distance(&end, &converged) / distance(&converged, &rest);
+        let statement =
+            format!("{name}, iterated until nothing changes, ends where implicit Euler does within {SAME:e}");
+        Ok(Mark::at_most(statement, apart, SAME))
+    };
+    let promising = [("XPBD", Integrator::Xpbd), ("VBD", Integrator::Vbd), ("PD", Integrator::ProjectiveDynamics)];
+    promising.into_iter().map(mark).collect()
 }

@@ -2,9 +2,7 @@
 
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
 
-use super::answers::{BUDGETS, Compared, ERRORS, Swept};
-use super::contenders::ALL;
-use super::runs::Run;
+use super::runs::{ALL, BUDGETS, Compared, Contender, ERRORS, Run, Swept};
 use crate::study::{Figure, Table};
 
 /// The tables: every run, errors within budgets, times to errors, the errors that no solver can avoid, failures.
@@ -12,11 +10,9 @@ pub fn tables(found: &[Compared]) -> Vec<Table> {
     vec![unavoidable(found), times(found), before_newton(found), budgets(found), failures(found), all_runs(found)]
 }
 
-const CASE: [&str; 4] = ["body", ">E (Pa)", ">ν", ">dt (s)"];
-
 /// A table whose rows begin with the cells of a case.
-fn of_cases(name: &str, rest: &[&str], rows: Vec<Vec<String>>) -> Table {
-    Table::new(name, &[&CASE, rest].concat(), rows)
+fn of_cases(name: &str, rest: &str, rows: Vec<Vec<String>>) -> Table {
+    Table::new(name, &format!("body | >E (Pa) | >ν | >dt (s) | {rest}"), rows)
 }
 
 fn number(value: Option<f64>) -> String {
@@ -36,8 +32,8 @@ fn unavoidable(found: &[Compared]) -> Table {
     let row = |of: &Compared| {
         of.case.cells().into_iter().chain([of.time_error, of.model_error].map(|error| number(Some(error)))).collect()
     };
-    let head = [">time error of implicit Euler", ">model error of springs"];
-    of_cases("rtfem-methods-errors", &head, found.iter().map(row).collect())
+    let head = ">time error of implicit Euler | >model error of springs";
+    of_cases("rtfem-methods-errors", head, found.iter().map(row).collect())
 }
 
 /// A row for each method on each case.
@@ -61,9 +57,9 @@ fn times(found: &[Compared]) -> Table {
         let times = ERRORS.map(|error| milliseconds(swept.time_to(error)));
         times.into_iter().chain([value.map_or(String::new(), |value| value.to_string())]).collect()
     };
-    let head = ["method", ">to a solver error of 1e-2 (ms a step)", ">1e-3", ">1e-6", ">best parameter"];
+    let head = "method | >to a solver error of 1e-2 (ms a step) | >1e-3 | >1e-6 | >best parameter";
     let rows = by_method(found, |swept| swept.contender.has_solver_error(), cells);
-    of_cases("rtfem-methods-times", &head, rows)
+    of_cases("rtfem-methods-times", head, rows)
 }
 
 /// The iterated methods that reach a solver error of 1e-3 before Newton's, at any modulus.
@@ -74,8 +70,8 @@ fn before_newton(found: &[Compared]) -> Table {
     let rows = |of: &Compared| -> Vec<Vec<String>> {
         of.before_newton().into_iter().map(|(name, part)| row(of, name, part)).collect()
     };
-    let head = ["method", ">its time to 1e-3 over that of Newton's method"];
-    of_cases("rtfem-methods-before-newton", &head, found.iter().flat_map(rows).collect())
+    let head = "method | >its time to 1e-3 over that of Newton's method";
+    of_cases("rtfem-methods-before-newton", head, found.iter().flat_map(rows).collect())
 }
 
 fn budgets(found: &[Compared]) -> Table {
@@ -86,31 +82,21 @@ fn budgets(found: &[Compared]) -> Table {
         };
         BUDGETS.into_iter().flat_map(of).collect()
     };
-    let head = [
-        "method",
-        ">solver error within 1 ms a step",
-        ">total",
-        ">solver error within 4 ms",
-        ">total",
-        ">solver error within 16 ms",
-        ">total",
-    ];
-    of_cases("rtfem-methods-budgets", &head, by_method(found, |_| true, cells))
+    let head = "method | >solver error within 1 ms a step | >total | >solver error within 4 ms | >total | >solver error within 16 ms | >total";
+    of_cases("rtfem-methods-budgets", head, by_method(found, |_| true, cells))
 }
 
 fn failures(found: &[Compared]) -> Table {
-    let row = |contender: &super::contenders::Contender| {
+    let row = |contender: &Contender| {
         let of_it = || found.iter().flat_map(|of| &of.methods).filter(|swept| swept.contender.name == contender.name);
         let runs = || of_it().flat_map(|swept| &swept.runs);
         let inverted = runs().filter(|run| run.inverted > 0).count();
         let failed = runs().filter(|run| run.has_failed()).count();
-        [contender.name.to_owned()]
-            .into_iter()
-            .chain([runs().count(), failed, inverted].map(|n| n.to_string()))
-            .collect()
+        let counts = [runs().count(), failed, inverted].map(|n| n.to_string());
+        [contender.name.to_owned()].into_iter().chain(counts).collect()
     };
-    let head = ["method", ">runs", ">failed", ">of them with inverted elements"];
-    Table::new("rtfem-methods-failures", &head, ALL.iter().map(row).collect())
+    let head = "method | >runs | >failed | >of them with inverted elements";
+    Table::new("rtfem-methods-failures", head, ALL.iter().map(row).collect())
 }
 
 fn all_runs(found: &[Compared]) -> Table {
@@ -127,22 +113,18 @@ fn all_runs(found: &[Compared]) -> Table {
     };
     let of_method =
         |of: &Compared, swept: &Swept| swept.runs.iter().map(|run| cells(of, swept, run)).collect::<Vec<_>>();
-    let head =
-        ["method", ">iterations", ">parameter", ">step, median (ms)", ">solver error", ">total error", "outcome"];
+    let head = "method | >iterations | >parameter | >step, median (ms) | >solver error | >total error | outcome";
     let rows = found.iter().flat_map(|of| of.methods.iter().flat_map(|swept| of_method(of, swept)).collect::<Vec<_>>());
-    of_cases("rtfem-methods", &head, rows.collect())
+    of_cases("rtfem-methods", head, rows.collect())
 }
 
 /// A chart for each case at 1/60 s whose springs are fair: the solver error over the time of a step.
 pub fn figures(found: &[Compared]) -> Vec<Figure> {
     let is_shown = |of: &&Compared| of.case.rate == 60 && of.case.poisson == 0.25;
-    let figure = |of: &Compared| Figure {
-        name: format!("rtfem-methods-{:e}", of.case.young),
-        picture: chart(of).draw(),
-        caption: format!(
-            "{}. Distance from the converged steps of implicit Euler over the time of a step.",
-            of.case.name()
-        ),
+    let figure = |of: &Compared| {
+        let name = of.case.name();
+        let caption = format!("{name}. Distance from the converged steps of implicit Euler over the time of a step.");
+        Figure::new(format!("rtfem-methods-{:e}", of.case.young), chart(of).draw(), caption)
     };
     found.iter().filter(is_shown).map(figure).collect()
 }
