@@ -112,10 +112,7 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
 /// The failure of the run, a signal, steps that have not converged unless the scene accepts those, or what the last steps have done that no check has seen yet.
 fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     let Finished { simulation, scene, run, signal, .. } = finished;
-    let failed = |failure: Failure| match simulation.critical_time_step() {
-        Some(critical) => End::Failed(failure.with_critical_time_step(critical)),
-        None => End::Failed(failure),
-    };
+    let failed = |failure: Failure| End::Failed(failure.with_critical_time_step(simulation.critical_time_step()));
     if let Some(failure) = run.failure.clone() {
         return Err(failed(failure));
     }
@@ -200,7 +197,7 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
     let (energies, (minimum, _)) = (simulation.energies(), simulation.min_J());
     let median = quantile(&run.step_seconds, 0.5)
         .map_or(String::new(), |seconds| format!(", {:.3} ms a step (median)", 1e3 * seconds));
-    let (name, integrator, steps) = (simulation.name(), simulation.integrator(), simulation.counters().steps);
+    let (name, integrator, steps) = (simulation.name(), simulation.integrator(), simulation.steps());
     // The time of an equilibrium has no meaning.
     let end = match integrator {
         "static" => "load steps".to_owned(),

@@ -16,7 +16,7 @@ fn a_failed_step_arrives_as_a_message_and_the_body_keeps_its_last_good_state() {
     (0..60).for_each(|_| app.update());
     let message = wait_for_failure(&mut app);
     assert!(
-        message.contains("the simulation failed in step") && message.contains("use a time step of 0.05 s or less"),
+        message.contains("the simulation failed in step") && message.contains("use a time step of 5.00e-2 s or less"),
         "{message}"
     );
 

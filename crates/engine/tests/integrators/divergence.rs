@@ -13,10 +13,7 @@ fn failure(law: &str, text: &str, steps: usize) -> Failure {
     let mut simulation = build(&of_law(law, text));
     (0..steps)
         .find_map(|_| simulation.step().err())
-        .map(|failure| match simulation.critical_time_step() {
-            Some(critical) => failure.with_critical_time_step(critical),
-            None => failure,
-        })
+        .map(|failure| failure.with_critical_time_step(simulation.critical_time_step()))
         .unwrap_or_else(|| panic!("{law}: {} steps without a failure\n{text}", steps))
 }
 

@@ -115,7 +115,7 @@ pub enum Breakdown {
 impl Failure {
     /// The failure of the step that follows the state at `time` (s) after `steps` steps of length `dt` (s).
     pub fn of_step(steps: usize, time: f64, dt: f64, integrator: Integrator, cause: Cause) -> Self {
-        let half = 0.5 * dt;
+        let half = format!("{:.2e}", 0.5 * dt);
         let remedy = match integrator {
             _ if matches!(cause, Cause::SmallestStep { .. }) => {
                 "give a larger time.adaptive.tolerance, or loads without jumps".to_owned()
@@ -154,12 +154,12 @@ impl Failure {
         Self { step: steps + 1, time: time + dt, cause, remedy }
     }
 
-    /// The same failure of an explicit method, with its critical time step (s) in the remedy; zero if there is no stable time step. An
-    /// element that is inverted at a corner needs another mesh, not another step.
-    pub fn with_critical_time_step(mut self, critical: f64) -> Self {
-        if matches!(self.cause, Cause::InvertedAtCorner { .. }) {
+    /// The same failure of an explicit method, with its critical time step (s) in the remedy; zero if there is no stable time step, and `None`
+    /// of any other method. An element that is inverted at a corner needs another mesh, not another step.
+    pub fn with_critical_time_step(mut self, critical: Option<f64>) -> Self {
+        let Some(critical) = critical.filter(|_| !matches!(self.cause, Cause::InvertedAtCorner { .. })) else {
             return self;
-        }
+        };
         self.remedy = if critical == 0.0 {
             "without damping the method is unstable at any time step; use verlet, or implicit_euler".to_owned()
         } else {
@@ -248,7 +248,7 @@ mod tests {
     fn the_remedy_of_an_explicit_method_names_its_critical_step_unless_the_mesh_is_at_fault() {
         let remedy = |cause| {
             let failure = Failure::of_step(3, 0.3, 0.1, Integrator::Verlet, cause);
-            failure.with_critical_time_step(0.01).remedy
+            failure.with_critical_time_step(Some(0.01)).remedy
         };
         assert!(remedy(Cause::Inverted { element: 7, J: -0.5 }).contains("critical time step"));
         let of_corner = remedy(Cause::InvertedAtCorner { element: 7, J: -0.5 });

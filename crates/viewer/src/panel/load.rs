@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewStat
 fn list(ui: &mut Ui, scene: &SceneSetup, setup: &Setup, requests: &mut Vec<UserRequest>) {
     for (number, table) in scene.scene.traction.iter().enumerate() {
         let force = match (table.pressure, table.force_per_area) {
-            (Some(pressure), _) => format!("pressure {} Pa", numbers::short(pressure)),
+            (Some(pressure), _) => format!("pressure {}", numbers::quantity(pressure, "Pa")),
             (_, Some(force)) => format!("({}) Pa", force.map(numbers::short).join(", ")),
             (None, None) => String::new(),
         };

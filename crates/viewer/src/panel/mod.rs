@@ -230,7 +230,7 @@ fn stability(critical: f64) -> String {
 /// A force beside the weight, both in N.
 fn contact_force(force: f64, weight: Option<f64>) -> String {
     let beside = weight.filter(|weight| *weight > 0.0).map(|weight| format!(", {:.2} × the weight", force / weight));
-    format!("{} N{}", numbers::short(force), beside.unwrap_or_default())
+    numbers::quantity(force, "N") + &beside.unwrap_or_default()
 }
 
 /// Describes the speed of simulated time, or the reason why the simulation does not run.
@@ -240,7 +240,7 @@ fn speed(snapshot: &Snapshot) -> String {
         _ if snapshot.finished => "finished".into(),
         _ if snapshot.paused => "paused".into(),
         None => "…".into(),
-        Some(factor) => format!("{factor:.2}, {}", pacing::describe(factor)),
+        Some(factor) => pacing::describe(factor),
     }
 }
 
@@ -253,7 +253,7 @@ fn help(context: &Context, text: &str) {
             ui.set_width(width);
             // Spaces within a hint do not break: a line ends between two hints.
             let hints: Vec<_> = text.split("  ·  ").map(|hint| hint.replace(' ', "\u{a0}")).collect();
-            ui.label(RichText::new(hints.join("  · ")).size(12.0));
+            ui.label(RichText::new(hints.join("\u{a0}\u{a0}·\u{a0} ")).size(12.0));
         });
     });
 }
@@ -288,7 +288,7 @@ mod tests {
     #[test]
     fn a_simulation_that_does_not_run_has_no_speed() {
         let running = Snapshot { rate: Some(1.0), ..Snapshot::default() };
-        assert_eq!(speed(&running), "1.00, keeps real time");
+        assert_eq!(speed(&running), "keeps real time");
         assert_eq!(speed(&Snapshot { paused: true, ..running.clone() }), "paused");
         assert_eq!(speed(&Snapshot { finished: true, ..running }), "finished");
     }

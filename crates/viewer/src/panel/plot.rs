@@ -40,13 +40,14 @@ pub fn show(ui: &mut Ui, samples: &[EnergyRow]) {
 }
 
 fn legend(ui: &mut Ui, last: Option<&EnergyRow>) {
-    ui.horizontal(|ui| {
+    // Wrapped, so that long numbers do not make the panel wider.
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
         for (name, color, value) in CURVES {
             let (swatch, _) = ui.allocate_exact_size(vec2(14.0, 10.0), Sense::hover());
             ui.painter().hline(swatch.x_range(), swatch.center().y, Stroke::new(2.5, color));
             let number = last.map_or_else(String::new, |s| format!(" {}", short(value(s))));
-            ui.small(format!("{name}{number}"));
+            ui.small(format!("{name}{number}").replace(' ', "\u{a0}"));
             ui.add_space(2.0);
         }
     });
@@ -59,7 +60,9 @@ fn legend(ui: &mut Ui, last: Option<&EnergyRow>) {
 fn balance(ledger: &EnergyLedger) -> String {
     let [supplied, dissipated, lost] =
         [ledger.start + ledger.supplied(), ledger.dissipated(), ledger.numerical()].map(short);
-    format!("supplied {supplied}   dissipated {dissipated}   by the method {lost}")
+    // A line breaks between two of them alone.
+    let each = [format!("supplied {supplied}"), format!("dissipated {dissipated}"), format!("by the method {lost}")];
+    each.map(|text| text.replace(' ', "\u{a0}")).join("   ")
 }
 
 /// Ranges of time and energy that the frame spans.

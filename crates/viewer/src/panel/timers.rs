@@ -11,7 +11,7 @@ pub fn show(ui: &mut Ui, snapshot: &Snapshot) {
         ui.label(RichText::new("no step was taken lately").color(theme::SECONDARY_TEXT));
         return;
     }
-    let whole = snapshot.step_seconds.max(f64::MIN_POSITIVE);
+    let whole = snapshot.timed_step.max(f64::MIN_POSITIVE);
     Grid::new("timers").num_columns(4).spacing(vec2(12.0, 3.0)).show(ui, |ui| {
         for name in ["in a step", "ms", "share", "uses"] {
             ui.label(RichText::new(name).color(theme::SECONDARY_TEXT));
@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, snapshot: &Snapshot) {
             ui.end_row();
         }
         ui.label(RichText::new("the whole step").strong());
-        ui.label(RichText::new(numbers::short(1e3 * snapshot.step_seconds)).strong());
+        ui.label(RichText::new(numbers::short(1e3 * snapshot.timed_step)).strong());
         ui.end_row();
     });
 }

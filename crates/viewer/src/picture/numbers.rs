@@ -12,6 +12,15 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// A number with its unit: 12.3 kN.
+pub fn quantity(value: f64, unit: &str) -> String {
+    let number = short(value);
+    match number.strip_suffix(['k', 'M']) {
+        Some(digits) => format!("{digits} {}{unit}", &number[digits.len()..]),
+        None => format!("{number} {unit}"),
+    }
+}
+
 /// Formats with three significant digits, without trailing zeros.
 fn digits(value: f64) -> String {
     let decimals = (2 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
@@ -44,6 +53,8 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(short(value), text);
         }
+        assert_eq!(quantity(-71_900.0, "Pa"), "-71.9 kPa");
+        assert_eq!(quantity(0.25, "N"), "0.25 N");
     }
 
     #[test]

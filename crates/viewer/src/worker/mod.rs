@@ -134,6 +134,8 @@ pub struct Snapshot {
     pub saved: Option<Result<PathBuf, String>>,
     /// The parts of a step and their times.
     pub timers: Vec<StepTimer>,
+    /// Mean time of the steps of which these are the parts, s.
+    pub timed_step: f64,
     /// A changed scene is being built.
     pub is_building: bool,
     /// Number of commands [`Command::Change`] that were executed or refused.

@@ -60,7 +60,7 @@ impl Rate {
 
 /// Describes a rate relative to real time.
 pub fn describe(factor: f64) -> String {
-    if factor >= 0.97 { "keeps real time".into() } else { format!("slower than real time: {:.1}×", 1.0 / factor) }
+    if factor >= 0.97 { "keeps real time".into() } else { format!("{:.1} times slower than real time", 1.0 / factor) }
 }
 
 #[cfg(test)]
@@ -106,6 +106,6 @@ mod tests {
     #[test]
     fn the_description_says_how_many_times_slower() {
         assert_eq!(describe(1.0), "keeps real time");
-        assert_eq!(describe(0.25), "slower than real time: 4.0×");
+        assert_eq!(describe(0.25), "4.0 times slower than real time");
     }
 }

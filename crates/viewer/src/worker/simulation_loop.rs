@@ -135,6 +135,9 @@ impl SimulationLoop {
     }
 
     fn execute(&mut self, command: Command) {
+        if matches!(command, Command::NextIntegrator | Command::Change(_) | Command::Set(..)) {
+            self.recent.clear(); // steps of another kind
+        }
         match command {
             Command::TogglePause => self.last.paused = !self.last.paused,
             Command::Reset => self.reset(),
@@ -183,7 +186,10 @@ impl SimulationLoop {
         let seconds = before.elapsed().as_secs_f64();
         match outcome {
             Ok(()) => self.after_step(seconds),
-            Err(failure) => self.last.stop = Some(Stop::Failed(failure)),
+            Err(failure) => {
+                let critical = self.simulation.critical_time_step();
+                self.last.stop = Some(Stop::Failed(failure.with_critical_time_step(critical)));
+            }
         }
         let show = match self.options.stepping {
             Stepping::RealTime => self.slot.wanted.swap(false, Ordering::AcqRel),
@@ -196,6 +202,7 @@ impl SimulationLoop {
 
     fn after_step(&mut self, seconds: f64) {
         self.step_seconds.push(seconds);
+        self.timers.add_step(seconds);
         self.recent.push_back(seconds);
         if self.recent.len() > STEPS_IN_MEDIAN {
             self.recent.pop_front();
@@ -245,6 +252,7 @@ impl SimulationLoop {
             object: self.editor.as_ref().and_then(|editor| editor.object()),
             setup: self.editor.as_ref().and_then(SceneEditor::setup),
             timers: self.timers.rows().to_vec(),
+            timed_step: self.timers.step(),
             is_building: false,
             dt: simulation.dt(),
             history: self.history.to_vec(),

@@ -23,6 +23,10 @@ pub struct StepTimers {
     /// The last reading: its time, the number of steps then, and the uses and seconds of each part.
     last: Option<(Instant, usize, Vec<Reading>)>,
     rows: Vec<StepTimer>,
+    /// Mean time of the steps that the rows are about, s.
+    step: f64,
+    /// Time of all steps since the last reading, s.
+    since: f64,
 }
 
 /// Name, uses and seconds of a part.
@@ -32,6 +36,16 @@ impl StepTimers {
     /// The parts that took time in the last steps, in the order of `--explain`.
     pub fn rows(&self) -> &[StepTimer] {
         &self.rows
+    }
+
+    /// Mean time of the steps of which the rows are parts, s.
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Adds the time of a step, s.
+    pub fn add_step(&mut self, seconds: f64) {
+        self.since += seconds;
     }
 
     /// Reads the timers of a simulation, unless that was done lately.
@@ -46,11 +60,13 @@ impl StepTimers {
             // Another simulation, or no step since.
             Some((_, before, readings)) if steps > before && readings.len() == now.len() => {
                 self.rows = differences(&readings, &now, steps - before);
+                self.step = self.since / (steps - before) as f64;
             }
             Some(last) if last.1 == steps && last.2.len() == now.len() => {}
             _ => self.rows.clear(),
         }
         self.last = Some((Instant::now(), steps, now));
+        self.since = 0.0;
     }
 }
 
