@@ -42,10 +42,8 @@ trait Environments: Send {
     /// The environments that have failed so far.
     fn failures(&mut self) -> Result<Vec<EnvironmentFailure>, String>;
 
-    /// Checks the present states, if steps are not checked one by one.
-    fn check_ends(&mut self) -> Result<(), String> {
-        Ok(())
-    }
+    /// Checks the present states for what no step has seen yet.
+    fn check_ends(&mut self) -> Result<(), String>;
 
     /// Steps of all environments together that have not converged.
     fn unconverged_steps(&self) -> usize {
@@ -128,7 +126,7 @@ impl Batch {
         Ok(self.failures.as_deref().unwrap_or_default())
     }
 
-    /// Checks the end of a run. On the processor each step has been checked. A device computes no energies: here all its states are
+    /// Checks the end of a run. On the processor each step has been checked, but for what is looked for every few steps. A device computes no energies: here all its states are
     /// read, and one more step of each is taken on the processor, which compares the energy with the supplied energy of loads and
     /// initial state. A motion that has grown without bound is then among the [`failures`](Self::failures), and a step that ends far
     /// from its solution among the [`unconverged_steps`](Self::unconverged_steps). Returns an error if the device is lost.

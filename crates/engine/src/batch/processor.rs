@@ -69,6 +69,13 @@ impl Environments for OnProcessor {
         Ok(failures.collect())
     }
 
+    fn check_ends(&mut self) -> Result<(), String> {
+        for environment in self.0.iter_mut().filter(|environment| environment.failure.is_none()) {
+            environment.failure = environment.simulation.failure_at_end();
+        }
+        Ok(())
+    }
+
     fn unconverged_steps(&self) -> usize {
         self.0.iter().map(|environment| environment.simulation.counters().unconverged_steps).sum()
     }

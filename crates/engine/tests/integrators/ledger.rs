@@ -112,6 +112,21 @@ fn a_run_shorter_than_the_steps_between_two_judgements_is_judged_at_its_end() {
 }
 
 #[test]
+fn environments_of_a_short_batch_are_judged_at_its_end() {
+    let failures = |method: &str| {
+        let scene = crate::scene(&oscillator(method, 0.1 / frequency(), ""));
+        let body = fem_scene::body(&scene, "no data".as_ref()).unwrap();
+        let values = fem_model::Batch(vec![Default::default(); 2]);
+        let mut batch = fem_engine::batch::Batch::new(body, &scene.method(), values).unwrap();
+        batch.advance(50).unwrap();
+        assert!(batch.failures().unwrap().is_empty(), "{method}");
+        batch.check_ends().unwrap();
+        batch.failures().unwrap().len()
+    };
+    assert_eq!(["explicit_euler", "verlet"].map(failures), [2, 0]);
+}
+
+#[test]
 fn a_body_released_from_a_strain_never_gains_energy_in_steps_far_above_its_periods() {
     for (method, more) in [
         ("generalized_alpha", ""),

@@ -210,7 +210,9 @@ fn figures(ui: &mut Ui, state: &ViewState, requests: &mut Vec<UserRequest>) {
         }
         ui.end_row();
         row(ui, "time", format!("{:.2} s, step {}", snapshot.time, snapshot.steps));
-        row(ui, "one step", format!("{} ms", numbers::short(1e3 * snapshot.step_seconds)));
+        let is_timed = snapshot.step_seconds > 0.0;
+        let one_step = is_timed.then(|| format!("{} ms", numbers::short(1e3 * snapshot.step_seconds)));
+        row(ui, "one step", one_step.unwrap_or_else(|| "…".into()));
         row(ui, "one frame", format!("{} ms", numbers::short(1e3 * state.frame_seconds)));
         row(ui, "speed", speed(snapshot));
         if let Some(critical) = snapshot.critical_time_step {
