@@ -61,6 +61,10 @@ fn a_sweep_has_a_row_for_every_combination_of_values_and_runs_go_on_from_its_sta
     assert_eq!(outcome.code, Some(1), "{outcome:?}");
     assert!(outcome.stderr.contains("2 of 2 runs failed or did not converge"), "{}", outcome.stderr);
     assert_eq!(desk.read("failing/sweep.csv").lines().count(), 3);
+    // A run that ends between two judgements of its energy is judged at its end.
+    let sweep = "--sweep time.integrator=explicit_euler --sweep time.dt=2e-3 --sweep time.steps=60";
+    assert_eq!(desk.run(&format!("report spinning --out gaining {sweep}")).code, Some(1));
+    assert!(desk.read("gaining/sweep.csv").contains("from nothing"));
     let message = desk.refused("report cube.toml --out out --sweep material.C=1e5,-1");
     assert!(message.starts_with("error: --set material.C=-1: material.C"), "{message}");
 }

@@ -273,7 +273,7 @@ fn stepped(scene: &Scene, simulation: &mut dyn Simulation) -> Run {
 fn figures(begun: &SweptRun, scene: &Scene, simulation: &dyn Simulation, run: &Run) -> SweptRun {
     let status = match (&run.failure, simulation.counters().unconverged_steps) {
         (Some(failure), _) => format!("failed: {failure}"),
-        (None, 0) => "done".to_owned(),
+        (None, 0) => simulation.failure_at_end().map_or("done".to_owned(), |failure| format!("failed: {failure}")),
         (None, unconverged) => format!("{unconverged} steps not converged"),
     };
     let (energies, (least, _)) = (simulation.energies(), simulation.min_J());
