@@ -1,6 +1,5 @@
 //! The floats of a simulation, for which this package compiles the loops over elements.
 
-use faer_traits::RealField as FaerReal;
 use fem_model::Body;
 use nalgebra::Vector3;
 
@@ -8,8 +7,8 @@ use crate::materials::{AnyLaw, Law};
 use crate::number::Float;
 use crate::solids::{Groups, Solids};
 
-/// The float that a whole simulation runs in: one that faer factorises matrices of, and whose loops over elements are compiled here.
-pub trait Real: Float + FaerReal {
+/// The float that a whole simulation runs in: one whose loops over elements are compiled here.
+pub trait Real: Float {
     /// A law by reference, whose kernels are those of this package.
     fn law(law: &AnyLaw<Self>) -> &dyn Law<Self>;
 

@@ -69,7 +69,7 @@ impl SolverKind {
     /// All solvers, their names in scene files, and a description.
     pub const FACTS: [(Self, &'static str, &'static str); 5] = [
         (Self::Cholesky, "cholesky", "Cholesky factorisation, the symbolic part once"),
-        (Self::Lu, "lu", "LU factorisation with partial pivoting"),
+        (Self::Lu, "lu", "LU factorisation with pivoting inside blocks of rows"),
         (Self::Cg, "cg", "conjugate gradients"),
         (Self::Pcg, "pcg", "conjugate gradients"),
         (Self::Gpu, "gpu", "conjugate gradients on the graphics device"),

@@ -111,7 +111,7 @@ impl SaddlePoint {
     pub(super) fn save(&self, history: &mut History) {
         put_flag(history, "newton.is_saddle_point_kept", !self.factored.is_empty());
         if !self.factored.is_empty() {
-            put(history, "newton.saddle_point", &self.factored);
+            put(history, "newton.saddle_point", &self.factor.to_columns(&self.factored));
         }
     }
 
@@ -119,7 +119,9 @@ impl SaddlePoint {
     pub(super) fn restore(&mut self, history: &History) -> Result<(), String> {
         self.factored.clear();
         if take_flag(history, "newton.is_saddle_point_kept")? {
-            take(history, "newton.saddle_point", self.factor.values_mut())?;
+            let mut values = vec![0.0; self.factor.values().len()];
+            take(history, "newton.saddle_point", &mut values)?;
+            self.factor.set_columns(&values);
             self.factor().map_err(|breakdown| breakdown.to_string())?;
         }
         Ok(())

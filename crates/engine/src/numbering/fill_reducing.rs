@@ -25,9 +25,7 @@ pub(super) fn fill_reducing<const N: usize>(
         let mut position = vec![u32::MAX; vertices.len()];
         let by_degree = by_minimum_degree(&nodes, &adjacency, &mut position);
         let mut cost = |nodes: &[u32]| factorisation_cost(nodes, &adjacency, &mut position);
-        if let Some(by_degree) = by_degree
-            && cost(&by_degree) < cost(&nodes)
-        {
+        if cost(&by_degree) < cost(&nodes) {
             return by_degree;
         }
     }
@@ -42,18 +40,14 @@ fn set_positions(nodes: &[u32], position: &mut [u32]) {
 }
 
 /// These nodes in the order of minimum degree. Nodes that are not in the list have `position` [`u32::MAX`].
-fn by_minimum_degree(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32]) -> Option<Vec<u32>> {
+fn by_minimum_degree(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32]) -> Vec<u32> {
     set_positions(nodes, position);
-    let graph: Vec<Vec<u32>> = nodes
-        .iter()
-        .map(|&node| {
-            let positions = adjacency[node as usize].iter().map(|&other| position[other as usize]);
-            let mut list: Vec<u32> = positions.filter(|&position| position != u32::MAX).collect();
-            list.sort_unstable();
-            list
-        })
-        .collect();
-    Some(minimum_degree(&graph)?.into_iter().map(|i| nodes[i as usize]).collect())
+    let neighbours = |&node: &u32| {
+        let positions = adjacency[node as usize].iter().map(|&other| position[other as usize]);
+        positions.filter(|&position| position != u32::MAX).collect()
+    };
+    let graph = nodes.iter().map(neighbours).collect();
+    minimum_degree(graph).into_iter().map(|i| nodes[i as usize]).collect()
 }
 
 /// Multiplications of a Cholesky factorisation in this order, up to a constant: the sum of the squares of the column lengths.

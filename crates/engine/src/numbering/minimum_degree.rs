@@ -1,24 +1,185 @@
-//! Approximate minimum degree, by faer: Amestoy, Davis and Duff, An Approximate Minimum Degree Ordering Algorithm (1996).
+//! Approximate minimum degree: Amestoy, Davis and Duff, An Approximate Minimum Degree Ordering Algorithm (1996).
+//!
+//! Eliminated nodes are elements of a quotient graph, each with the list of the nodes that it couples. Nodes with the same neighbours are
+//! eliminated together, and stand for each other until then.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
-/// The nodes in a fill-reducing order, from the lists of each node's neighbours, which ascend. Returns `None` if the graph has
-/// too many edges for 32-bit counts.
-pub(super) fn minimum_degree(adjacency: &[Vec<u32>]) -> Option<Vec<u32>> {
+/// The nodes in a fill-reducing order, from the lists of each node's neighbours.
+pub(crate) fn minimum_degree(adjacency: Vec<Vec<u32>>) -> Vec<u32> {
     let nodes = adjacency.len();
-    let mut starts = vec![0u32];
-    let mut rows = Vec::with_capacity(adjacency.iter().map(Vec::len).sum());
-    for list in adjacency {
-        rows.extend(list);
-        starts.push(u32::try_from(rows.len()).ok()?);
+    let mut graph = QuotientGraph::new(adjacency);
+    let mut order = Vec::with_capacity(nodes);
+    // Of nodes with the same degree the one comes first whose degree has been found last: it is near those that were eliminated before.
+    let found = graph.degree.iter().zip(0..).map(|(&degree, node)| (Reverse(degree), 0, node));
+    let mut heap: BinaryHeap<(Reverse<usize>, usize, u32)> = found.collect();
+    let mut time = 0;
+    while let Some((Reverse(degree), _, node)) = heap.pop() {
+        // Entries of nodes that are gone, or whose degree has changed, stay in the heap.
+        if graph.weight[node as usize] == 0 || graph.degree[node as usize] != degree {
+            continue;
+        }
+        for node in graph.eliminate(node, nodes - order.len(), &mut order) {
+            time += 1;
+            heap.push((Reverse(graph.degree[node as usize]), time, node));
+        }
     }
-    let graph = SymbolicSparseColMatRef::new_checked(nodes, nodes, &starts, None, &rows);
-    let (mut ordering, mut inverse) = (vec![0; nodes], vec![0; nodes]);
-    let mut memory = MemBuffer::new(amd::order_scratch::<u32>(nodes, rows.len()));
-    amd::order(&mut ordering, &mut inverse, graph, amd::Control::default(), MemStack::new(&mut memory)).ok()?;
-    Some(ordering)
+    order
+}
+
+struct QuotientGraph {
+    /// Neighbours of each node that no element couples it with.
+    nodes: Vec<Vec<u32>>,
+    /// Elements of each node.
+    elements: Vec<Vec<u32>>,
+    /// Nodes of each element; an element has the number of the node that it was.
+    of_element: Vec<Vec<u32>>,
+    /// Upper bound of the number of neighbours of a node, without those that it stands for.
+    degree: Vec<usize>,
+    /// Number of nodes that a node stands for; 0 if it is gone.
+    weight: Vec<usize>,
+    /// The nodes that a node stands for, and itself.
+    members: Vec<Vec<u32>>,
+    /// The last number for which a node or an element was marked.
+    mark: Vec<usize>,
+    marks: usize,
+    /// Number of the nodes of each marked element that are not in the newest one.
+    outside: Vec<usize>,
+}
+
+impl QuotientGraph {
+    fn new(adjacency: Vec<Vec<u32>>) -> Self {
+        let nodes = adjacency.len();
+        let without_itself = |(node, list): (u32, Vec<u32>)| list.into_iter().filter(|&other| other != node).collect();
+        let lists: Vec<Vec<u32>> = (0..).zip(adjacency).map(without_itself).collect();
+        Self {
+            degree: lists.iter().map(Vec::len).collect(),
+            nodes: lists,
+            elements: vec![Vec::new(); nodes],
+            of_element: vec![Vec::new(); nodes],
+            weight: vec![1; nodes],
+            members: (0..nodes as u32).map(|node| vec![node]).collect(),
+            mark: vec![0; nodes],
+            marks: 0,
+            outside: vec![0; nodes],
+        }
+    }
+
+    /// Adds a node, with those that it stands for, to the order, of which so many are left. Returns its former neighbours.
+    fn eliminate(&mut self, pivot: u32, left: usize, order: &mut Vec<u32>) -> Vec<u32> {
+        let p = pivot as usize;
+        let mut neighbours = self.neighbours(pivot);
+        order.append(&mut self.members[p]);
+        let left = left - self.weight[p];
+        self.weight[p] = 0;
+        for element in std::mem::take(&mut self.elements[p]) {
+            self.of_element[element as usize] = Vec::new();
+        }
+        self.nodes[p] = Vec::new();
+        self.count_outside(&neighbours);
+        let size: usize = neighbours.iter().map(|&node| self.weight[node as usize]).sum();
+        let is_neighbour = self.next_mark(&neighbours);
+        for &node in &neighbours {
+            let i = node as usize;
+            let Self { nodes, elements, of_element, mark, outside, weight, .. } = self;
+            // The new element couples it with all of its neighbours in that, and holds those elements that have no other node.
+            nodes[i].retain(|&other| weight[other as usize] > 0 && mark[other as usize] != is_neighbour);
+            elements[i].retain(|&e| !of_element[e as usize].is_empty() && outside[e as usize] > 0);
+            let of_elements: usize = elements[i].iter().map(|&e| outside[e as usize]).sum();
+            let of_nodes: usize = nodes[i].iter().map(|&other| weight[other as usize]).sum();
+            let new = size - weight[i];
+            elements[i].push(pivot);
+            let others = left - weight[i];
+            self.degree[i] = others.min(self.degree[i] + new).min(of_nodes + of_elements + new);
+        }
+        self.merge(&neighbours);
+        neighbours.retain(|&node| self.weight[node as usize] > 0);
+        self.of_element[p].clone_from(&neighbours);
+        neighbours
+    }
+
+    /// The nodes that a node is coupled with.
+    fn neighbours(&mut self, pivot: u32) -> Vec<u32> {
+        let seen = self.next_mark(&[pivot]);
+        let mut neighbours = Vec::new();
+        let Self { nodes, elements, of_element, mark, weight, .. } = self;
+        let of_elements = elements[pivot as usize].iter().flat_map(|&element| &of_element[element as usize]);
+        for &node in nodes[pivot as usize].iter().chain(of_elements) {
+            if weight[node as usize] > 0 && mark[node as usize] != seen {
+                mark[node as usize] = seen;
+                neighbours.push(node);
+            }
+        }
+        neighbours
+    }
+
+    /// Counts the nodes of each element of these nodes that are not among them.
+    fn count_outside(&mut self, nodes: &[u32]) {
+        self.marks += 1;
+        for &node in nodes {
+            for &element in &self.elements[node as usize] {
+                let e = element as usize;
+                if self.mark[e] != self.marks {
+                    self.mark[e] = self.marks;
+                    self.outside[e] = self.of_element[e].iter().map(|&node| self.weight[node as usize]).sum();
+                }
+                self.outside[e] = self.outside[e].saturating_sub(self.weight[node as usize]);
+            }
+        }
+    }
+
+    /// Marks these nodes with a new number.
+    fn next_mark(&mut self, nodes: &[u32]) -> usize {
+        self.marks += 1;
+        nodes.iter().for_each(|&node| self.mark[node as usize] = self.marks);
+        self.marks
+    }
+
+    /// Lets one of these nodes stand for others that have the same neighbours.
+    fn merge(&mut self, candidates: &[u32]) {
+        let mut keys: Vec<(usize, u32)> = candidates.iter().map(|&node| (self.key(node), node)).collect();
+        keys.sort_unstable();
+        for same_key in keys.chunk_by(|a, b| a.0 == b.0) {
+            for (place, &(_, node)) in same_key.iter().enumerate() {
+                if self.weight[node as usize] == 0 {
+                    continue;
+                }
+                for &(_, other) in &same_key[place + 1..] {
+                    if self.weight[other as usize] > 0 && self.are_alike(node, other) {
+                        self.absorb(node, other);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A number that nodes with the same neighbours share.
+    fn key(&self, node: u32) -> usize {
+        let lists = self.nodes[node as usize].iter().chain(&self.elements[node as usize]);
+        lists.map(|&other| other as usize).fold(0, usize::wrapping_add)
+    }
+
+    fn are_alike(&mut self, a: u32, b: u32) -> bool {
+        let [lists_a, lists_b] = [a, b].map(|node| [&self.nodes[node as usize], &self.elements[node as usize]]);
+        if lists_a.map(Vec::len) != lists_b.map(Vec::len) {
+            return false;
+        }
+        self.marks += 1;
+        lists_a.into_iter().flatten().for_each(|&other| self.mark[other as usize] = self.marks);
+        lists_b.into_iter().flatten().all(|&other| self.mark[other as usize] == self.marks)
+    }
+
+    fn absorb(&mut self, node: u32, other: u32) {
+        let (i, j) = (node as usize, other as usize);
+        self.degree[i] -= self.weight[j].min(self.degree[i]);
+        self.weight[i] += self.weight[j];
+        self.weight[j] = 0;
+        let mut members = std::mem::take(&mut self.members[j]);
+        self.members[i].append(&mut members);
+        self.nodes[j] = Vec::new();
+        self.elements[j] = Vec::new();
+    }
 }
 
 #[cfg(test)]
@@ -29,7 +190,7 @@ mod tests {
     fn the_centre_of_a_star_comes_late_and_every_node_once() {
         let mut adjacency = vec![vec![0]; 10];
         adjacency[0] = (1..10).collect();
-        let mut ordering = minimum_degree(&adjacency).unwrap();
+        let mut ordering = minimum_degree(adjacency);
         assert!(ordering[8..].contains(&0), "{ordering:?}");
         ordering.sort_unstable();
         assert!(ordering.into_iter().eq(0..10));

@@ -8,6 +8,7 @@ mod parts;
 use nalgebra::Vector3;
 
 use fill_reducing::fill_reducing;
+pub(crate) use minimum_degree::minimum_degree;
 use parts::by_parts;
 
 /// The engine's numbers of a mesh's nodes.

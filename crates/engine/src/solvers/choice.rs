@@ -13,7 +13,7 @@ use fem_model::{Precision, SolverKind, SolverSettings};
 pub enum SolverChoice {
     /// Cholesky factorisation A = L Lᵀ.
     Cholesky,
-    /// LU factorisation with partial pivoting.
+    /// LU factorisation with pivoting inside blocks of rows.
     Lu,
     /// Conjugate gradients.
     Cg,

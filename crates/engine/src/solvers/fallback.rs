@@ -3,8 +3,7 @@
 //! Round-off in a preconditioner, or an iteration that stagnates, says little about the matrix: the factor decides whether that is positive
 //! definite.
 
-use super::ApproximateInverse;
-use super::direct::FaerCholesky;
+use super::direct::Reordered;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_model::simulation::Breakdown;
@@ -13,7 +12,7 @@ use fem_model::simulation::Breakdown;
 pub(super) struct DirectFallback<T: Real> {
     /// Bytes that the factor may take, where that is known.
     limit: Option<usize>,
-    factor: Option<FaerCholesky<T>>,
+    factor: Option<Reordered<T>>,
     /// True if the factor is that of the matrix in use.
     pub(super) is_in_use: bool,
 }
@@ -36,11 +35,11 @@ impl<T: Real> DirectFallback<T> {
         values: &[Block<T, 3>],
         breakdown: Breakdown,
     ) -> Result<(), Breakdown> {
-        let factor = match self.factor.take() {
-            Some(factor) => factor,
-            None => FaerCholesky::reordered(pattern, self.limit).map_err(|_| without_verdict(breakdown))?,
+        let factor = self.factor.get_or_insert_with(|| Reordered::within(pattern, self.limit));
+        let outcome = match factor.prepare(values) {
+            Err(Breakdown::TooLarge) => Err(without_verdict(breakdown)),
+            outcome => outcome,
         };
-        let outcome = self.factor.insert(factor).prepare(values);
         self.is_in_use = outcome.is_ok();
         outcome
     }
@@ -74,9 +73,9 @@ fn available_memory() -> Option<usize> {
 }
 
 /// Returns true if the factor of a body of so many nodes is expected to fit into memory. In nested dissection of a compact body of n unknowns
-/// it grows as n^(4/3); that of a cube of 9 261 nodes and its workspace take 152 MB, which is less than 25 n^(4/3)
+/// it grows as n^(4/3); those of cubes of 9 261 and 29 791 nodes and their workspaces take 234 and 1 194 MB, which is less than 40 n^(4/3)
 /// numbers of eight bytes; those of slender bodies take less.
 pub(crate) fn factor_fits(nodes: usize) -> bool {
-    let bytes = 8.0 * 25.0 * (3.0 * nodes as f64).powf(4.0 / 3.0);
+    let bytes = 8.0 * 40.0 * (3.0 * nodes as f64).powf(4.0 / 3.0);
     available_memory().is_none_or(|available| bytes < available as f64)
 }

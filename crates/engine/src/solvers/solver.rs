@@ -13,7 +13,7 @@ use super::assembly::Assembly;
 use super::assembly::DeviceElements;
 use super::choice::SolverChoice;
 use super::device;
-use super::direct::{Lu, cholesky, cholesky_for_directions};
+use super::direct::{Lu, SupernodalCholesky, cholesky_for_directions};
 use super::fallback::DirectFallback;
 use super::krylov::{LinearSystem, Workspace, conjugate_gradients, parts, product, refine};
 use super::parts::Part;
@@ -47,7 +47,7 @@ impl<T: Real> Solver<T> {
     /// rows' nodes, m.
     pub fn new(choice: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Self {
         let inverse: Box<dyn ApproximateInverse<T>> = match choice {
-            SolverChoice::Cholesky => cholesky(pattern),
+            SolverChoice::Cholesky => Box::new(SupernodalCholesky::new(pattern)),
             SolverChoice::Lu => Box::new(Lu::new(pattern)),
             SolverChoice::Cg => Box::new(Identity),
             SolverChoice::Pcg(preconditioner) => preconditioners::build(preconditioner, pattern, rest),
@@ -256,7 +256,7 @@ impl<T: Real> Solver<T> {
         self.inverse.bytes()
     }
 
-    /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not report their size.
+    /// Allocated bytes without the pattern.
     pub fn bytes(&self) -> usize {
         let fallback = self.fallback.as_ref().map_or(0, |fallback| fallback.bytes());
         self.inverse.bytes() + self.workspace.bytes() + fallback + self.elsewhere

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::cholesky;
+use super::SupernodalCholesky;
 use crate::solvers::krylov::{parts, product};
 use crate::solvers::parts::Part;
 use crate::solvers::{ApproximateInverse, Memoryless};
@@ -21,13 +21,13 @@ pub(super) struct SingleCholesky<T: Real> {
     /// 1 / largest entry of the matrix: the scaled matrix is within the range of single precision.
     scale: f64,
     values: Vec<Block<f32, 3>>,
-    factor: Box<dyn ApproximateInverse<f32>>,
+    factor: SupernodalCholesky<f32>,
     right: Vec<[f32; 3]>,
     solution: Vec<[f32; 3]>,
     /// Right-hand side of the test, with entries from −1 to 1.
     test: Vec<[f32; 3]>,
     /// The factor in the precision of the matrix; `None` until the first matrix that needs it.
-    precise: Option<Box<dyn ApproximateInverse<T>>>,
+    precise: Option<SupernodalCholesky<T>>,
     is_precise: bool,
 }
 
@@ -39,7 +39,7 @@ impl<T: Real> SingleCholesky<T> {
             parts: parts(pattern),
             scale: 1.0,
             values: vec![[[0.0; 3]; 3]; pattern.blocks()],
-            factor: cholesky(pattern),
+            factor: SupernodalCholesky::new(pattern),
             right: zero(),
             solution: zero(),
             test: test_vector(pattern.rows()),
@@ -85,7 +85,7 @@ impl<T: Real> ApproximateInverse<T> for SingleCholesky<T> {
         if !self.is_precise {
             return Ok(());
         }
-        self.precise.get_or_insert_with(|| cholesky(&self.pattern)).prepare(values)
+        self.precise.get_or_insert_with(|| SupernodalCholesky::new(&self.pattern)).prepare(values)
     }
 
     fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {

@@ -24,7 +24,7 @@ const INCOMPRESSIBLE: [(Elements, f64); 6] = [
 const WEIGHT: f64 = 0.1;
 
 /// Motions of the face of largest x along x, m. The last one turns corners of elements inside out between their quadrature points, which
-/// ends the run with an error that names the element.
+/// ends the run with an error that names the element; in equilibrium round-off decides how the body buckles, and whether corners turn.
 const MOTIONS: [(&str, f64, Outcome); 3] = [
     ("stretched to 5 times its length", 8.0, Outcome::Survives),
     ("compressed to 70 % of its length", -0.6, Outcome::Survives),
@@ -58,7 +58,8 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
         cases.push(sliver(thin, setup, if quick { 10 } else { 100 }));
     }
     let driven = |((name, motion, expected), integrator)| driven(name, motion, expected, integrator);
-    cases.extend(pairs(MOTIONS, [Integrator::ImplicitEuler, Integrator::Static]).map(driven));
+    cases.extend(pairs(MOTIONS, [Integrator::ImplicitEuler]).map(driven));
+    cases.extend(pairs([MOTIONS[0], MOTIONS[1]], [Integrator::Static]).map(driven));
     recovery::add_of(cases, QUADRATIC, if quick { 0 } else { 5 });
 }
 

@@ -16,11 +16,12 @@ const TOLERANCE: f64 = 1e-12;
 /// Steps of the integrators in time.
 const STEPS: usize = 50;
 
-/// Largest difference of displacements, relative to the largest displacement.
-const SAME: f64 = 1e-4;
+/// Largest difference of displacements, relative to the largest displacement. Round-off in single precision decides some 1e-4 of it after 50 steps
+/// without damping.
+const SAME: f64 = 3e-4;
 
 const MARGIN_IS: &str =
-    "largest difference from double precision / 1e-4 of the largest displacement, round-off; must be at most 1";
+    "largest difference from double precision / 3e-4 of the largest displacement, round-off; must be at most 1";
 
 /// Integrators and time steps, s; all below the stability limits of E = 1e5 Pa.
 const METHODS: [(Integrator, f64); 10] = [

@@ -9,9 +9,17 @@ use std::ops::Range;
 
 use fem_elements::sparse::Pattern;
 
+/// Smallest number of multiplications of a large subtree: they take about a millisecond, and waking a thread some microseconds.
+const LARGE: f64 = 8e6;
+
+/// Smallest share of a large subtree in all multiplications. With smaller ones update matrices would take more memory.
+const SHARE: f64 = 1.0 / 8.0;
+
 /// Consecutive nodes that are eliminated together. Sizes are in nodes unless they say scalars.
 pub struct Supernode {
     pub nodes: Range<usize>,
+    /// Its part of a vector in postorder, scalars.
+    pub diagonal: Range<usize>,
     /// Rows below its nodes, in [`SymbolicFactor::rows`].
     pub rows: Range<usize>,
     /// Blocks of the matrix in its columns, in [`SymbolicFactor::blocks`].
@@ -22,10 +30,14 @@ pub struct Supernode {
     pub columns: Range<usize>,
     /// Scalars from one column of L to the next.
     pub stride: usize,
+    /// Number of rows below its columns, and so of columns of its update matrix, scalars.
+    pub below: usize,
     /// Scalars from one column of its update matrix to the next.
     pub update_stride: usize,
     /// Supernodes whose update matrices are assembled into its front, in [`SymbolicFactor::children`].
     pub children: Range<usize>,
+    /// True if its subtree takes long enough for a thread of its own.
+    pub is_large: bool,
 }
 
 /// `count` rows that are contiguous both in a supernode's update matrix, at `from`, and in its parent's front, at `to`.
@@ -46,21 +58,16 @@ pub struct SymbolicFactor {
     pub ranges: Vec<RowRange>,
     /// Numbers of supernodes.
     pub children: Vec<usize>,
+    /// Supernodes without a parent.
+    pub roots: Vec<usize>,
     /// Scalars of L.
     pub len_L: usize,
-    /// Scalars of the stack of update matrices at its largest.
-    pub len_updates: usize,
 }
 
 impl Supernode {
-    /// Number of rows below its nodes.
-    pub fn below(&self) -> usize {
-        self.rows.len()
-    }
-
     /// Scalars of its update matrix.
     pub fn len_update(&self) -> usize {
-        3 * self.below() * self.update_stride
+        self.below * self.update_stride
     }
 }
 
@@ -73,32 +80,39 @@ struct Draft {
 }
 
 impl SymbolicFactor {
-    /// Symbolic factorisation of a pattern that stores the lower half. Columns of L are padded to a multiple of `lanes`
-    /// scalars.
-    pub fn new(pattern: &Pattern, lanes: usize) -> Self {
-        let drafts = merge(fundamental_supernodes(pattern));
+    /// Symbolic factorisation of a pattern that stores the lower half, in blocks of `size` rows and columns. Columns of L are padded to a
+    /// multiple of `lanes` scalars.
+    pub fn new(pattern: &Pattern, size: usize, lanes: usize) -> Self {
+        let drafts = merge(fundamental_supernodes(pattern), size);
         let parents = parents(&drafts, pattern.rows());
-        let postorder = postorder(&parents);
+        let is_large = large_subtrees(&drafts, &parents, size);
+        let postorder = postorder(&parents, &is_large);
         let mut symbolic = Self {
             supernodes: vec![],
             rows: vec![],
             blocks: vec![],
             ranges: vec![],
             children: vec![],
+            roots: vec![],
             len_L: 0,
-            len_updates: 0,
         };
         for &draft in &postorder {
-            symbolic.push(&drafts[draft], parents[draft].map(|parent| &drafts[parent]), lanes);
+            symbolic.push(&drafts[draft], parents[draft].map(|parent| &drafts[parent]), size, lanes);
+            symbolic.supernodes.last_mut().into_iter().for_each(|supernode| supernode.is_large = is_large[draft]);
         }
         symbolic.find_children(&parents, &postorder);
-        symbolic.place_blocks(pattern);
+        symbolic.place_blocks(pattern, size);
         symbolic
     }
 
-    /// The children of a supernode, in the order of their update matrices on the stack.
-    pub fn children(&self, supernode: usize) -> std::iter::Copied<std::slice::Iter<'_, usize>> {
-        self.children[self.supernodes[supernode].children.clone()].iter().copied()
+    /// The children of a supernode, in postorder.
+    pub fn children(&self, supernode: usize) -> &[usize] {
+        &self.children[self.supernodes[supernode].children.clone()]
+    }
+
+    /// Scalars of the update matrices of these supernodes.
+    pub fn len_updates_of(&self, supernodes: &[usize]) -> usize {
+        supernodes.iter().map(|&number| self.supernodes[number].len_update()).sum()
     }
 
     pub fn bytes(&self) -> usize {
@@ -109,8 +123,8 @@ impl SymbolicFactor {
             + size_of_val(self.ranges.as_slice())
     }
 
-    fn push(&mut self, draft: &Draft, parent: Option<&Draft>, lanes: usize) {
-        let (width, below) = (3 * draft.nodes.len(), 3 * draft.rows.len());
+    fn push(&mut self, draft: &Draft, parent: Option<&Draft>, size: usize, lanes: usize) {
+        let (width, below) = (size * draft.nodes.len(), size * draft.rows.len());
         let update_stride = below.next_multiple_of(lanes);
         let stride = (width + update_stride).next_multiple_of(lanes);
         let rows = self.rows.len()..self.rows.len() + draft.rows.len();
@@ -121,13 +135,25 @@ impl SymbolicFactor {
         }
         let columns = self.len_L..self.len_L + width * stride;
         self.len_L = columns.end;
+        let first = self.supernodes.last().map_or(0, |last| last.diagonal.end);
         let (nodes, ranges) = (draft.nodes.clone(), ranges..self.ranges.len());
-        let (blocks, children) = (0..0, 0..0);
-        self.supernodes.push(Supernode { nodes, rows, blocks, ranges, columns, stride, update_stride, children });
+        self.supernodes.push(Supernode {
+            nodes,
+            diagonal: first..first + width,
+            rows,
+            blocks: 0..0,
+            ranges,
+            columns,
+            stride,
+            below,
+            update_stride,
+            children: 0..0,
+            is_large: false,
+        });
     }
 
     /// Finds the place in L of each block of the matrix.
-    fn place_blocks(&mut self, pattern: &Pattern) {
+    fn place_blocks(&mut self, pattern: &Pattern, size: usize) {
         let mut supernode_of = vec![0u32; pattern.rows()];
         for (number, supernode) in self.supernodes.iter().enumerate() {
             supernode_of[supernode.nodes.clone()].fill(number as u32);
@@ -138,8 +164,8 @@ impl SymbolicFactor {
                 let column = pattern.columns[block] as usize;
                 let number = supernode_of[column];
                 let Supernode { nodes, rows, columns, stride, .. } = &self.supernodes[number as usize];
-                let place = columns.start + 3 * (column - nodes.start) * stride;
-                (number, block as u32, place + 3 * front_row(row as u32, nodes, &self.rows[rows.clone()]))
+                let place = columns.start + size * (column - nodes.start) * stride;
+                (number, block as u32, place + size * front_row(row as u32, nodes, &self.rows[rows.clone()]))
             })
             .collect();
         placed.sort_unstable();
@@ -152,25 +178,20 @@ impl SymbolicFactor {
         self.blocks = placed.into_iter().map(|(_, block, place)| (block, place)).collect();
     }
 
-    /// Finds the children of each supernode and the largest size of the stack of update matrices. A supernode's own update
-    /// matrix is computed above those of its children, then moved down to where theirs began.
+    /// Finds the children of each supernode.
     fn find_children(&mut self, parents: &[Option<usize>], postorder: &[usize]) {
         let mut number_of = vec![0; postorder.len()];
         postorder.iter().enumerate().for_each(|(number, &draft)| number_of[draft] = number);
-        let parents: Vec<Option<usize>> =
-            postorder.iter().map(|&draft| parents[draft].map(|parent| number_of[parent])).collect();
-        let (mut stack, mut len): (Vec<usize>, usize) = (Vec::new(), 0);
+        let mut waiting: Vec<usize> = Vec::new();
+        let parent_of = |number: usize| parents[postorder[number]].map(|parent| number_of[parent]);
         for number in 0..self.supernodes.len() {
-            let own = self.supernodes[number].len_update();
-            self.len_updates = self.len_updates.max(len + own);
-            let first = stack.iter().rposition(|&child| parents[child] != Some(number)).map_or(0, |last| last + 1);
+            let first = waiting.iter().rposition(|&child| parent_of(child) != Some(number)).map_or(0, |last| last + 1);
             let start = self.children.len();
-            self.children.extend(stack.drain(first..));
-            len -= self.children[start..].iter().map(|&child| self.supernodes[child].len_update()).sum::<usize>();
+            self.children.extend(waiting.drain(first..));
             self.supernodes[number].children = start..self.children.len();
-            stack.push(number);
-            len += own;
+            waiting.push(number);
         }
+        self.roots = waiting;
     }
 }
 
@@ -235,12 +256,12 @@ fn fundamental_supernodes(pattern: &Pattern) -> Vec<Draft> {
 
 /// Merges a supernode with the one after it, its parent, where few zeros are stored for it: fewer and larger supernodes are
 /// faster.
-fn merge(drafts: Vec<Draft>) -> Vec<Draft> {
+fn merge(drafts: Vec<Draft>, size: usize) -> Vec<Draft> {
     let mut merged: Vec<Draft> = Vec::new();
     for draft in drafts {
         let mut current = draft;
         while let Some(last) = merged.last() {
-            let Some(zeros) = zeros_if_worthwhile(last, &current) else { break };
+            let Some(zeros) = zeros_if_worthwhile(last, &current, size) else { break };
             let nodes = last.nodes.start..current.nodes.end;
             merged.pop();
             current = Draft { nodes, zeros, ..current };
@@ -251,7 +272,7 @@ fn merge(drafts: Vec<Draft>) -> Vec<Draft> {
 }
 
 /// Zero blocks that the merged supernode would store; `None` if it would not be faster.
-fn zeros_if_worthwhile(child: &Draft, parent: &Draft) -> Option<usize> {
+fn zeros_if_worthwhile(child: &Draft, parent: &Draft, size: usize) -> Option<usize> {
     if child.rows.first() != Some(&(parent.nodes.start as u32)) {
         return None;
     }
@@ -260,7 +281,8 @@ fn zeros_if_worthwhile(child: &Draft, parent: &Draft) -> Option<usize> {
     let zeros = child.zeros + parent.zeros + added;
     let all = width * (width + 1) / 2 + width * parent.rows.len();
     let share = zeros as f64 / all as f64;
-    let worth = width <= 2 || (width <= 6 && share < 0.5) || (width <= 16 && share < 0.15) || share < 0.05;
+    let width = size * width;
+    let worth = width <= 6 || (width <= 18 && share < 0.5) || (width <= 48 && share < 0.15) || share < 0.05;
     worth.then_some(zeros)
 }
 
@@ -273,16 +295,34 @@ fn parents(drafts: &[Draft], nodes: usize) -> Vec<Option<usize>> {
     drafts.iter().map(|draft| draft.rows.first().map(|&row| draft_of[row as usize])).collect()
 }
 
-/// Numbers in postorder: each parent directly after the subtrees of its children.
-fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
+/// Whether the elimination of the subtree of each draft takes long.
+fn large_subtrees(drafts: &[Draft], parents: &[Option<usize>], size: usize) -> Vec<bool> {
+    let multiplications = |draft: &Draft| {
+        let [width, below] = [draft.nodes.len(), draft.rows.len()].map(|nodes| (size * nodes) as f64);
+        width * (width * width / 6.0 + 0.5 * below * (width + below))
+    };
+    let mut work: Vec<f64> = drafts.iter().map(multiplications).collect();
+    for (draft, parent) in parents.iter().enumerate() {
+        // A parent comes after its children.
+        if let Some(parent) = *parent {
+            work[parent] += work[draft];
+        }
+    }
+    let all: f64 = (0..drafts.len()).filter(|&draft| parents[draft].is_none()).map(|root| work[root]).sum();
+    work.into_iter().map(|work| work > LARGE.max(SHARE * all)).collect()
+}
+
+/// Numbers in postorder: each parent directly after the subtrees of its children, of which large ones come first.
+fn postorder(parents: &[Option<usize>], is_large: &[bool]) -> Vec<usize> {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); parents.len()];
     for (number, parent) in parents.iter().enumerate() {
         if let Some(parent) = *parent {
             children[parent].push(number);
         }
     }
-    let roots = (0..parents.len()).filter(|&number| parents[number].is_none());
-    let mut stack: Vec<usize> = roots.collect();
+    children.iter_mut().for_each(|children| children.sort_by_key(|&child| !is_large[child]));
+    let mut stack: Vec<usize> = (0..parents.len()).filter(|&number| parents[number].is_none()).collect();
+    stack.sort_by_key(|&root| !is_large[root]);
     // A preorder backwards is a postorder.
     let mut order = Vec::with_capacity(parents.len());
     while let Some(number) = stack.pop() {
