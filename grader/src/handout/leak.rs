@@ -41,12 +41,14 @@ impl fmt::Display for Leak {
 /// also in a given function is no solution.
 pub fn leaks(root: &Path, rubric: &Rubric, files: &Files) -> Result<Vec<Leak>, HandoutError> {
     let is_given = |name: &str| rubric.role(name) == Role::Given;
-    let mut pieces: HashMap<Vec<String>, &'static str> = HashMap::new();
+    // Words by number: most words of a handout are in no solution, and a window with one of them is none.
+    let mut numbers = HashMap::new();
+    let mut pieces: HashMap<Vec<usize>, &'static str> = HashMap::new();
     for name in NAMES.into_iter().filter(|name| !is_given(name)) {
-        pieces.extend(windows(root, name)?.into_iter().map(|window| (window, name)));
+        pieces.extend(windows(root, name, &mut numbers)?.into_iter().map(|window| (window, name)));
     }
     for name in NAMES.into_iter().filter(|name| is_given(name)) {
-        for window in windows(root, name)? {
+        for window in windows(root, name, &mut numbers)? {
             pieces.remove(&window);
         }
     }
@@ -58,24 +60,40 @@ pub fn leaks(root: &Path, rubric: &Rubric, files: &Files) -> Result<Vec<Leak>, H
             continue; // figures
         }
         let words = words(text);
-        for window in lengths.iter().flat_map(|&length| words.windows(length)) {
-            if let Some(&function) = pieces.get(window) {
-                let leak = || Leak { function, path: path.clone(), piece: window.join(" ") };
-                found.entry((path, function)).or_insert_with(leak);
+        let numbers: Vec<Option<usize>> = words.iter().map(|word| numbers.get(*word).copied()).collect();
+        for &length in &lengths {
+            let mut begin = 0;
+            for run in numbers.split(Option::is_none) {
+                let run_of_words = &words[begin..begin + run.len()];
+                begin += run.len() + 1;
+                if run.len() < length {
+                    continue;
+                }
+                let run: Vec<usize> = run.iter().copied().flatten().collect();
+                for (window, piece) in run.windows(length).zip(run_of_words.windows(length)) {
+                    if let Some(&function) = pieces.get(window) {
+                        let leak = || Leak { function, path: path.clone(), piece: piece.join(" ") };
+                        found.entry((path, function)).or_insert_with(leak);
+                    }
+                }
             }
         }
     }
     Ok(found.into_values().collect())
 }
 
-/// All pieces of a function's solution. A body that is shorter than a window counts as a whole.
-fn windows(root: &Path, name: &str) -> Result<Vec<Vec<String>>, HandoutError> {
+/// All pieces of a function's solution, as numbers of their words. A body that is shorter than a window counts as a whole.
+fn windows(root: &Path, name: &str, numbers: &mut HashMap<String, usize>) -> Result<Vec<Vec<usize>>, HandoutError> {
     let path = root.join(format!("src/{name}.rs"));
     let text = fs::read_to_string(&path).map_err(HandoutError::io(&path))?;
     let mut found = Vec::new();
     for body in bodies(&text).map_err(|error| HandoutError::unusable(&path, error))? {
-        let words = words(&body);
-        found.extend(words.windows(WINDOW.min(words.len())).map(<[String]>::to_vec));
+        let mut number = |word: &str| {
+            let next = numbers.len();
+            *numbers.entry(word.to_owned()).or_insert(next)
+        };
+        let words: Vec<usize> = words(&body).into_iter().map(&mut number).collect();
+        found.extend(words.windows(WINDOW.min(words.len())).map(<[usize]>::to_vec));
     }
     Ok(found)
 }
@@ -107,20 +125,15 @@ fn source_of(tokens: TokenStream, text: &str) -> String {
 }
 
 /// Words and signs, one by one. Works for any text, so that solutions are found in pages and tests as well.
-fn words(text: &str) -> Vec<String> {
+fn words(text: &str) -> Vec<&str> {
+    let is_in_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut words = Vec::new();
-    let mut word = String::new();
-    for c in text.chars() {
-        let is_in_word = c.is_alphanumeric() || c == '_';
-        if !is_in_word && !word.is_empty() {
-            words.push(std::mem::take(&mut word));
-        }
-        match is_in_word {
-            true => word.push(c),
-            false if !c.is_whitespace() => words.push(c.to_string()),
-            false => {}
-        }
+    let mut rest = text.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let word =
+            if is_in_word(first) { rest.find(|c| !is_in_word(c)).unwrap_or(rest.len()) } else { first.len_utf8() };
+        words.push(&rest[..word]);
+        rest = rest[word..].trim_start();
     }
-    words.extend((!word.is_empty()).then_some(word));
     words
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use grader::submission::{NAMES, is_stub};
 
@@ -17,11 +18,12 @@ fn whole_course() -> Rubric {
     Rubric::load(None).unwrap()
 }
 
-fn written() -> tempfile::TempDir {
+/// The handout of the whole course, written by whichever test comes first.
+static WRITTEN: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     write(&root(), &whole_course(), folder.path()).unwrap_or_else(|error| panic!("{error}"));
     folder
-}
+});
 
 fn names(folder: &Path) -> BTreeSet<String> {
     let entries = fs::read_dir(folder).unwrap().flatten();
@@ -30,7 +32,7 @@ fn names(folder: &Path) -> BTreeSet<String> {
 
 #[test]
 fn the_handout_has_no_strays() {
-    let folder = written();
+    let folder = &*WRITTEN;
     let expected = [
         ".gitignore",
         "Cargo.lock",
@@ -59,7 +61,7 @@ fn the_handout_has_no_strays() {
 
 #[test]
 fn every_function_is_empty_and_names_its_page() {
-    let folder = written();
+    let folder = &*WRITTEN;
     for name in NAMES {
         let text = fs::read_to_string(folder.path().join(format!("src/{name}.rs"))).unwrap();
         assert!(is_stub(name, &text), "{text}");
@@ -72,7 +74,7 @@ fn every_function_is_empty_and_names_its_page() {
 
 #[test]
 fn no_lint_stops_the_build_of_what_students_write() {
-    let folder = written();
+    let folder = &*WRITTEN;
     let library = fs::read_to_string(folder.path().join("src/lib.rs")).unwrap();
     assert!(
         library.contains("#![warn(warnings)]") && library.contains("extern crate self as finite_elements_3d;"),
@@ -94,7 +96,7 @@ fn a_solution_in_any_text_is_found() {
 
 #[test]
 fn links_of_its_pages_lead_somewhere() {
-    let folder = written();
+    let folder = &*WRITTEN;
     let pages = fs::read_dir(folder.path().join("include-docs")).unwrap().flatten().map(|entry| entry.path());
     for page in
         pages.chain([folder.path().join("README.md")]).filter(|path| path.extension().is_some_and(|e| e == "md"))
