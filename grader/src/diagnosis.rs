@@ -87,10 +87,15 @@ struct Case {
     trial: Trial,
     expected: Observed,
     observed: Observed,
+    /// The answer breaks no rule.
+    is_right: bool,
 }
 
 /// Largest relative distance between a mistake's answer and the answer that it explains.
 const PRECISION: f64 = 1e-6;
+
+/// Smallest number of answers in which a mistake shows if it is to be named, unless there are fewer answers.
+const TELLING: usize = 3;
 
 /// The explanation of a function that fails.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -113,9 +118,14 @@ pub fn explain(function: &str, seed: u64, subject: &dyn Implementation, variants
 }
 
 fn diagnose(function: &str, cases: &[Case], variants: &[Variant]) -> Option<Diagnosis> {
+    // Answers that differ from the right ones by no digit are no mistake's.
+    let differ = cases.iter().filter(|case| case.observed.numbers != case.expected.numbers).count();
+    if differ < TELLING && cases.iter().all(|case| case.is_right) {
+        return None;
+    }
     let mut cases: Vec<&Case> = cases.iter().collect();
     // Wrong answers come first, because they rule out most candidates.
-    cases.sort_by_cached_key(|case| right(case));
+    cases.sort_by_cached_key(|case| case.is_right);
     // A second mistake in a limiting case must not hide the first.
     let (ordinary, edges): (Vec<&Case>, Vec<_>) = cases.iter().partition(|case| !case.trial.edge);
     let all: Vec<_> = ordinary.iter().chain(&edges).copied().collect();
@@ -131,7 +141,7 @@ fn diagnose(function: &str, cases: &[Case], variants: &[Variant]) -> Option<Diag
         .chain(differences::candidates(function))
         .collect();
     let explained = |cases: &[&Case]| {
-        let wrong = cases.iter().any(|case| !right(case));
+        let wrong = cases.iter().any(|case| !case.is_right);
         // Of several explanations, the first that also makes the same number of calls of the closures.
         let mut all = candidates.iter().filter(|candidate| wrong && explains(candidate, cases));
         let first = all.next()?;
@@ -146,7 +156,7 @@ fn diagnose(function: &str, cases: &[Case], variants: &[Variant]) -> Option<Diag
     };
     // If no answer is right, answers that are not finite have too many explanations.
     let nothing = kinds::not_a_number(&ordinary);
-    if let Some(nothing) = nothing.clone().filter(|_| !cases.iter().any(|case| right(case))) {
+    if let Some(nothing) = nothing.clone().filter(|_| !cases.iter().any(|case| case.is_right)) {
         return Some(nothing);
     }
     // At a vertex or on an edge a display vertex may follow any of several elements, and the choice changes wrong weights.
@@ -159,7 +169,7 @@ fn diagnose(function: &str, cases: &[Case], variants: &[Variant]) -> Option<Diag
     if nothing.is_some() {
         return nothing;
     }
-    if cases.iter().all(|case| right(case)) {
+    if cases.iter().all(|case| case.is_right) {
         return candidates.iter().find(|candidate| explains_finely(candidate, &all)).map(diagnosis);
     }
     let scaled = || candidates.iter().find_map(|candidate| with_factor(candidate, &ordinary));
@@ -213,7 +223,10 @@ fn cases(function: &str, seed: u64, subject: &dyn Implementation) -> Vec<Case> {
     for trial in trials.into_iter().chain(more) {
         let Ok(expected) = trial.run(&Local(REFERENCE)) else { break };
         match trial.run(subject) {
-            Ok(observed) => cases.push(Case { trial, expected, observed }),
+            Ok(observed) => {
+                let is_right = compare(&trial, &observed, &expected, TOLERANCE).wrongs.is_empty();
+                cases.push(Case { trial, expected, observed, is_right });
+            }
             Err(Trouble::Panicked { .. }) => {}
             Err(_) => break,
         }
@@ -244,11 +257,6 @@ fn solves_as_often(candidate: &Candidate, case: &Case) -> bool {
     mistaken.is_some_and(|answer| solves(&answer).is_none_or(|n| solves(&case.observed) == Some(n)))
 }
 
-/// Returns true if the answer of a case breaks no rule.
-fn right(case: &Case) -> bool {
-    compare(&case.trial, &case.observed, &case.expected, TOLERANCE).wrongs.is_empty()
-}
-
 fn from_variant(variant: &Variant) -> Option<Candidate<'_>> {
     let table = Local(variant.functions);
     Some(Candidate::new(variant.diagnosis?, variant.sentence, move |trial, _| trial.run(&table).ok()))
@@ -275,7 +283,7 @@ fn explains(candidate: &Candidate, cases: &[&Case]) -> bool {
         }
         telling += usize::from(shows);
     }
-    telling >= 3 || telling > 0 && telling == cases.len()
+    telling >= TELLING || telling > 0 && telling == cases.len()
 }
 
 fn size(answer: &Observed) -> f64 {
@@ -295,7 +303,7 @@ fn explains_finely(candidate: &Candidate, cases: &[&Case]) -> bool {
         }
         telling += usize::from(difference.is_finite() && difference > 100.0 * round_off);
     }
-    telling >= 3
+    telling >= TELLING
 }
 
 /// The largest difference; infinite where shapes differ or one side alone is not a number.

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use grader::implementation::Implementation;
 
-use super::{Case, Diagnosis, right};
+use super::{Case, Diagnosis};
 use crate::reference::TOLERANCE;
 use crate::reference::compare::compare;
 use crate::reference::trial::Input;
@@ -12,12 +12,12 @@ use crate::reference::trial::Input;
 /// The mistake of a function whose answers hold no number at all.
 pub fn not_a_number(cases: &[&Case]) -> Option<Diagnosis> {
     let is_empty = |case: &&Case| case.observed.numbers.is_empty();
-    if cases.iter().all(is_empty) && cases.iter().filter(|case| !right(case)).count() > 2 {
+    if cases.iter().all(is_empty) && cases.iter().filter(|case| !case.is_right).count() > 2 {
         return Some(Diagnosis::new("empty", "The answer is empty, whatever the input. Is what was found returned?"));
     }
     let nothing = |case: &&Case| case.observed.numbers.iter().all(|x| !x.is_finite());
     let wrong: Vec<_> =
-        cases.iter().copied().filter(|case| !right(case) && !case.observed.numbers.is_empty()).collect();
+        cases.iter().copied().filter(|case| !case.is_right && !case.observed.numbers.is_empty()).collect();
     let is_nan = |case: &&Case| case.observed.numbers.iter().any(|x| x.is_nan());
     let name = if wrong.iter().any(is_nan) { "not a number" } else { "infinite" };
     let sentence = "The answers are NaN or infinite: which division, root, power or logarithm has no value there?";
@@ -26,7 +26,7 @@ pub fn not_a_number(cases: &[&Case]) -> Option<Diagnosis> {
 
 /// The mistake of a function that is right but for limiting cases.
 pub fn limiting_case(cases: &[&Case]) -> Option<Diagnosis> {
-    let wrong: Vec<_> = cases.iter().filter(|case| !right(case)).collect();
+    let wrong: Vec<_> = cases.iter().filter(|case| !case.is_right).collect();
     if wrong.is_empty() || wrong.iter().any(|case| !case.trial.edge) {
         return None;
     }
@@ -80,7 +80,7 @@ pub fn inexact(cases: &[&Case]) -> Option<Diagnosis> {
 
 /// The mistake of a quadrature that is right but for the point at which it evaluates.
 pub fn evaluated_elsewhere(cases: &[Case], subject: &dyn Implementation) -> Option<Diagnosis> {
-    let wrong: Vec<_> = cases.iter().filter(|case| !right(case)).collect();
+    let wrong: Vec<_> = cases.iter().filter(|case| !case.is_right).collect();
     let fits = |case: &&Case| {
         let Input::Quadrature { V, element, volume, integrand } = &case.trial.input else { return false };
         let points = RefCell::new(Vec::new());

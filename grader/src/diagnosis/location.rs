@@ -6,8 +6,8 @@ mod probes;
 
 use grader::implementation::{Implementation, Local};
 
+use super::Case;
 use super::entries::{places, sets};
-use super::{Case, right};
 use crate::reference::trial::{Observed, Trial};
 use crate::reference::{REFERENCE, TOLERANCE, compare};
 
@@ -20,7 +20,7 @@ const MOST: usize = 3;
 /// Sentences about where the answers are right; `None` if there is no pattern. Those about entries are left out if the diagnosis tells
 /// them: a second set of entries beside the first reads like a contradiction.
 pub fn locate(cases: &[Case], subject: &dyn Implementation, tells_entries: bool) -> Option<String> {
-    let (good, bad): (Vec<_>, Vec<_>) = cases.iter().partition(|case| right(case));
+    let (good, bad): (Vec<_>, Vec<_>) = cases.iter().partition(|case| case.is_right);
     let first = bad.first()?;
     let mut all = Vec::new();
     // Of a limiting case its kind says more: simpler inputs are no limiting cases any more, whatever they are.
