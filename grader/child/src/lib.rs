@@ -6,6 +6,7 @@
 #![allow(non_snake_case)] // V, T, F, C and D are the names that the mathematics and the course use
 #![deny(missing_docs)]
 
+pub mod algebra;
 mod functions;
 mod serve;
 pub mod simulation;

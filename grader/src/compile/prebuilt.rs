@@ -196,7 +196,7 @@ fn manifest(root: &Path) -> Result<String, PrebuildError> {
     Ok(format!(
         "[package]\nname = \"prebuilt\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[workspace.package]\n\
          [dependencies]\nnalgebra = \"{nalgebra}\"\nnalgebra-sparse = \"{sparse}\"\n\
-         grader-child = {{ path = {:?} }}\n[profile.release]\nopt-level = 2\ndebug = false\n",
+         grader-child = {{ path = {:?} }}\n[profile.release]\nopt-level = 2\ndebug = false\nlto = \"off\"\n",
         child.display().to_string()
     ))
 }

@@ -1,5 +1,6 @@
 //! Formulas as sums of terms: the coefficient of each is read off the answers by least squares.
 
+use grader_child::algebra;
 use nalgebra::{DMatrix, DVector};
 
 use super::answers::{whole, written};
@@ -24,9 +25,6 @@ const NEAR: f64 = 1e-6;
 
 /// The name of a term that does not belong to the formula.
 pub const OTHER: &str = "another term";
-
-/// Small beside the ones on the diagonal, and no smaller than their round-off.
-const SMALL: f64 = 1e-14;
 
 /// Number of cases in a first, quick test of a formula.
 const FIRST: usize = 4;
@@ -72,16 +70,11 @@ fn fitted(formula: &Formula, cases: &[&Case], among: &[bool]) -> Option<Vec<f64>
         return None;
     }
     let (A, b) = (DMatrix::from_row_slice(right.len(), n, &rows), DVector::from_vec(right));
-    // Columns of the same length, so that small terms are not lost.
-    let lengths: Vec<f64> = A.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
-    let scaled = DMatrix::from_fn(A.nrows(), n, |i, j| A[(i, j)] / lengths[j]);
-    // A term that is zero in these trials has no coefficient, which must not spoil those of the others.
-    let normal = scaled.transpose() * &scaled + DMatrix::identity(n, n) * SMALL;
-    let x = normal.cholesky()?.solve(&(scaled.transpose() * &b));
+    let x = algebra::least_squares(&A, &b)?;
     // A term that is zero in all of these entries says nothing, so that its coefficient counts as right.
-    let of_term = |j: usize| if A.column(j).amax() == 0.0 { formula.terms[j].1 } else { x[j] / lengths[j] };
+    let of_term = |j: usize| if A.column(j).amax() == 0.0 { formula.terms[j].1 } else { x[j] };
     let coefficients: Vec<f64> = (0..n).map(of_term).collect();
-    let misfit = (&A * DVector::from_column_slice(&coefficients) - b).amax();
+    let misfit = algebra::misfit(&A, &DVector::from_column_slice(&coefficients), &b);
     (misfit <= NEAR && coefficients.iter().all(|c| c.is_finite())).then_some(coefficients)
 }
 

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 
+use grader_child::algebra;
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3};
 use nalgebra_sparse::CsrMatrix;
 
@@ -24,7 +25,7 @@ pub fn by_elimination(A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
         return b.clone();
     }
     let fits = b.len() <= MOST_UNKNOWNS && (A.nrows(), A.ncols()) == (b.len(), b.len());
-    let solution = if fits { DMatrix::from(A).lu().solve(b) } else { None };
+    let solution = if fits { algebra::by_elimination(A, b) } else { None };
     solution.unwrap_or_else(|| DVector::from_element(b.len(), f64::NAN))
 }
 
@@ -33,7 +34,7 @@ pub fn without_negative_eigenvalues(H: &SMatrix<f64, 12, 12>) -> SMatrix<f64, 12
     if !H.iter().all(|entry| entry.is_finite()) {
         return SMatrix::repeat(f64::NAN); // the eigenvalue iteration would not end
     }
-    let eigen = H.symmetric_eigen();
+    let eigen = algebra::eigen(H);
     let kept = eigen.eigenvalues.map(|value| value.max(0.0));
     eigen.eigenvectors * SMatrix::<f64, 12, 12>::from_diagonal(&kept) * eigen.eigenvectors.transpose()
 }

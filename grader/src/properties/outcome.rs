@@ -3,7 +3,8 @@
 use std::cell::Cell;
 use std::fmt;
 
-use nalgebra::{DMatrix, DVector, Dim, Matrix, RawStorage, SymmetricEigen};
+use grader_child::algebra;
+use nalgebra::{DMatrix, DVector, Dim, Matrix, RawStorage};
 use nalgebra_sparse::CsrMatrix;
 
 use crate::implementation::Trouble;
@@ -218,8 +219,8 @@ pub fn eigenvalues_of<R: Dim, S: RawStorage<f64, R, R>>(
     if scale == 0.0 {
         return Ok(DVector::zeros(size));
     }
-    let eigen = SymmetricEigen::try_new(matrix / scale, f64::EPSILON, MOST_SWEEPS);
-    eigen.map(|eigen| eigen.eigenvalues * scale).ok_or_else(|| wrong("eigenvalues can be found", String::new()))
+    let eigenvalues = algebra::eigenvalues(matrix / scale, MOST_SWEEPS);
+    eigenvalues.map(|values| values * scale).ok_or_else(|| wrong("eigenvalues can be found", String::new()))
 }
 
 /// Iterations after which the search for eigenvalues ends; a few for each eigenvalue are usual.

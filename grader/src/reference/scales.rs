@@ -1,5 +1,6 @@
 //! Sizes of the terms that an answer is the sum of: round-off is measured relative to them, not to the sum.
 
+use grader_child::algebra::smallest_singular_value;
 use nalgebra::{DVector, Matrix3, Matrix4x3, Vector3};
 
 use super::trial::{Elastic, Mesh};
@@ -15,12 +16,12 @@ pub fn energy(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
 
 /// Size of the terms of the stress, Pa: the energy over the smallest principal stretch.
 pub fn stress(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
-    energy(F, C, D) / F.singular_values().min()
+    energy(F, C, D) / smallest_singular_value(F)
 }
 
 /// Size of the terms of the derivative of the stress, Pa.
 pub fn stiffness(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
-    stress(F, C, D) / F.singular_values().min()
+    stress(F, C, D) / smallest_singular_value(F)
 }
 
 /// Length of the longest gradient of a shape function, 1/m: one over the smallest height.

@@ -2,6 +2,7 @@
 
 use finite_elements_3d as solved;
 use finite_elements_3d::given;
+use grader_child::algebra;
 use nalgebra::{DMatrix, DVector, SMatrix, Vector3};
 
 use crate::diagnosis::switches::Switch;
@@ -221,13 +222,13 @@ pub const SWITCHES: &[Switch<Settings>] = &[
 
 /// The matrix with changed eigenvalues.
 pub fn with_eigenvalues(H: &SMatrix<f64, 12, 12>, change: impl Fn(f64) -> f64) -> SMatrix<f64, 12, 12> {
-    let mut eigen = H.symmetric_eigen();
+    let mut eigen = algebra::eigen(H);
     eigen.eigenvalues.apply(|value| *value = change(*value));
     eigen.recompose()
 }
 
 fn raised(H: &SMatrix<f64, 12, 12>, share: f64) -> SMatrix<f64, 12, 12> {
-    let floor = share * H.symmetric_eigenvalues().amax();
+    let floor = share * algebra::eigenvalues_of_element(H).amax();
     with_eigenvalues(H, |value| value.max(floor))
 }
 
