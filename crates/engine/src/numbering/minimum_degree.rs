@@ -6,26 +6,35 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+/// Which of the nodes with the same degree is eliminated first: the one whose degree was found last or first.
+#[derive(Clone, Copy)]
+pub(crate) enum Ties {
+    Last,
+    First,
+}
+
 /// The nodes in a fill-reducing order, from the lists of each node's neighbours.
-pub(crate) fn minimum_degree(adjacency: Vec<Vec<u32>>) -> Vec<u32> {
-    let nodes = adjacency.len();
+pub(crate) fn minimum_degree(adjacency: Vec<Vec<u32>>, ties: Ties) -> Vec<u32> {
     let mut graph = QuotientGraph::new(adjacency);
-    let mut order = Vec::with_capacity(nodes);
-    // Of nodes with the same degree the one comes first whose degree has been found last: it is near those that were eliminated before.
+    let mut left = graph.nodes.len();
     let found = graph.degree.iter().zip(0..).map(|(&degree, node)| (Reverse(degree), 0, node));
-    let mut heap: BinaryHeap<(Reverse<usize>, usize, u32)> = found.collect();
+    let mut heap: BinaryHeap<(Reverse<usize>, i64, u32)> = found.collect();
     let mut time = 0;
     while let Some((Reverse(degree), _, node)) = heap.pop() {
         // Entries of nodes that are gone, or whose degree has changed, stay in the heap.
         if graph.weight[node as usize] == 0 || graph.degree[node as usize] != degree {
             continue;
         }
-        for node in graph.eliminate(node, nodes - order.len(), &mut order) {
-            time += 1;
+        left -= graph.weight[node as usize];
+        for node in graph.eliminate(node, left) {
+            time += match ties {
+                Ties::Last => 1,
+                Ties::First => -1,
+            };
             heap.push((Reverse(graph.degree[node as usize]), time, node));
         }
     }
-    order
+    graph.postorder()
 }
 
 struct QuotientGraph {
@@ -41,6 +50,10 @@ struct QuotientGraph {
     weight: Vec<usize>,
     /// The nodes that a node stands for, and itself.
     members: Vec<Vec<u32>>,
+    /// The elements in the order of their elimination, each with the number of nodes that it couples, itself included.
+    eliminated: Vec<(u32, usize)>,
+    /// The later element that holds the nodes of each element.
+    parent: Vec<Option<u32>>,
     /// The last number for which a node or an element was marked.
     mark: Vec<usize>,
     marks: usize,
@@ -60,21 +73,23 @@ impl QuotientGraph {
             of_element: vec![Vec::new(); nodes],
             weight: vec![1; nodes],
             members: (0..nodes as u32).map(|node| vec![node]).collect(),
+            eliminated: Vec::new(),
+            parent: vec![None; nodes],
             mark: vec![0; nodes],
             marks: 0,
             outside: vec![0; nodes],
         }
     }
 
-    /// Adds a node, with those that it stands for, to the order, of which so many are left. Returns its former neighbours.
-    fn eliminate(&mut self, pivot: u32, left: usize, order: &mut Vec<u32>) -> Vec<u32> {
+    /// Eliminates a node, with those that it stands for, after which so many are left. Returns its former neighbours.
+    fn eliminate(&mut self, pivot: u32, left: usize) -> Vec<u32> {
         let p = pivot as usize;
         let mut neighbours = self.neighbours(pivot);
-        order.append(&mut self.members[p]);
-        let left = left - self.weight[p];
+        self.eliminated.push((pivot, self.degree[p] + self.weight[p]));
         self.weight[p] = 0;
         for element in std::mem::take(&mut self.elements[p]) {
             self.of_element[element as usize] = Vec::new();
+            self.parent[element as usize] = Some(pivot);
         }
         self.nodes[p] = Vec::new();
         self.count_outside(&neighbours);
@@ -82,10 +97,16 @@ impl QuotientGraph {
         let is_neighbour = self.next_mark(&neighbours);
         for &node in &neighbours {
             let i = node as usize;
-            let Self { nodes, elements, of_element, mark, outside, weight, .. } = self;
+            let Self { nodes, elements, mark, outside, weight, parent, .. } = self;
             // The new element couples it with all of its neighbours in that, and holds those elements that have no other node.
             nodes[i].retain(|&other| weight[other as usize] > 0 && mark[other as usize] != is_neighbour);
-            elements[i].retain(|&e| !of_element[e as usize].is_empty() && outside[e as usize] > 0);
+            elements[i].retain(|&e| {
+                let is_within = outside[e as usize] == 0;
+                if is_within {
+                    parent[e as usize] = Some(pivot);
+                }
+                !is_within
+            });
             let of_elements: usize = elements[i].iter().map(|&e| outside[e as usize]).sum();
             let of_nodes: usize = nodes[i].iter().map(|&other| weight[other as usize]).sum();
             let new = size - weight[i];
@@ -97,6 +118,28 @@ impl QuotientGraph {
         neighbours.retain(|&node| self.weight[node as usize] > 0);
         self.of_element[p].clone_from(&neighbours);
         neighbours
+    }
+
+    /// The order of elimination, changed so that elements follow those that they hold, the largest of these last: the fill is the same, and
+    /// more nodes with the same neighbours follow each other.
+    fn postorder(mut self) -> Vec<u32> {
+        let mut children: Vec<Vec<(usize, u32)>> = vec![Vec::new(); self.nodes.len()];
+        let mut stack = Vec::new();
+        for &(element, size) in &self.eliminated {
+            match self.parent[element as usize] {
+                Some(parent) => children[parent as usize].push((size, element)),
+                None => stack.push(element),
+            }
+        }
+        // A preorder backwards is a postorder.
+        let mut order = Vec::with_capacity(self.nodes.len());
+        while let Some(element) = stack.pop() {
+            order.extend(self.members[element as usize].drain(..).rev());
+            children[element as usize].sort_by_key(|&(size, _)| size);
+            stack.extend(children[element as usize].iter().map(|&(_, child)| child));
+        }
+        order.reverse();
+        order
     }
 
     /// The nodes that a node is coupled with.
@@ -184,15 +227,17 @@ impl QuotientGraph {
 
 #[cfg(test)]
 mod tests {
-    use super::minimum_degree;
+    use super::{Ties, minimum_degree};
 
     #[test]
     fn the_centre_of_a_star_comes_late_and_every_node_once() {
         let mut adjacency = vec![vec![0]; 10];
         adjacency[0] = (1..10).collect();
-        let mut ordering = minimum_degree(adjacency);
-        assert!(ordering[8..].contains(&0), "{ordering:?}");
-        ordering.sort_unstable();
-        assert!(ordering.into_iter().eq(0..10));
+        for ties in [Ties::Last, Ties::First] {
+            let mut ordering = minimum_degree(adjacency.clone(), ties);
+            assert!(ordering[8..].contains(&0), "{ordering:?}");
+            ordering.sort_unstable();
+            assert!(ordering.into_iter().eq(0..10));
+        }
     }
 }

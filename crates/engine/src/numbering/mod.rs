@@ -8,7 +8,7 @@ mod parts;
 use nalgebra::Vector3;
 
 use fill_reducing::fill_reducing;
-pub(crate) use minimum_degree::minimum_degree;
+pub(crate) use minimum_degree::{Ties, minimum_degree};
 use parts::by_parts;
 
 /// The engine's numbers of a mesh's nodes.

@@ -1,7 +1,7 @@
 //! The Cholesky factor of a matrix whose rows are in another order than one that reduces fill.
 
 use super::SupernodalCholesky;
-use crate::numbering::minimum_degree;
+use crate::numbering::{Ties, minimum_degree};
 use crate::solvers::ApproximateInverse;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
@@ -31,7 +31,7 @@ impl<T: Real> Reordered<T> {
             adjacency[column as usize].push(row);
         }
         let mut place = vec![0; rows];
-        for (new, old) in minimum_degree(adjacency).into_iter().enumerate() {
+        for (new, old) in minimum_degree(adjacency, Ties::Last).into_iter().enumerate() {
             place[old as usize] = new as u32;
         }
         let moved: Vec<[u32; 2]> = pairs().map(|pair| pair.map(|row| place[row as usize])).collect();
