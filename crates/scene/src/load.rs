@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use fem_model::Refusal;
 use toml::de::{DeTable, DeValue};
-use toml::{Spanned, Table};
+use toml::{Spanned, Table, Value};
 
 use crate::check::check;
 use crate::overrides::Override;
@@ -50,7 +50,7 @@ fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, 
     let mut source: Table = text.parse().map_err(|error| of_line(text, path, &error))?;
     apply(overrides, &mut source)?;
     let mut scene = match overrides {
-        [] => toml::from_str(text).map_err(|error| of_line(text, path, &error))?,
+        [] => toml::from_str(text).map_err(|error| wrong_header(text, path, &source, &error))?,
         _ => overridden(text, path, &source, overrides)?,
     };
     scene.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -138,6 +138,30 @@ impl Scene {
 fn of_line(text: &str, path: &Path, error: &toml::de::Error) -> SceneError {
     let line = error.span().map_or(1, |span| line_at(text, span.start));
     SceneError::Line { file: path.to_owned(), line, problem: problem_of(error) }
+}
+
+/// The error of a table that is written as a list, or the other way round, where nothing else is wrong; or the error itself.
+fn wrong_header(text: &str, path: &Path, source: &Table, error: &toml::de::Error) -> SceneError {
+    for (key, value) in source {
+        let (problem, right) = match value {
+            Value::Array(tables) if tables.len() > 1 && tables.iter().all(Value::is_table) => {
+                (format!("[[{key}]] is written more than once; keep one, as [{key}]"), tables[0].clone())
+            }
+            Value::Array(tables) if tables.len() == 1 && tables[0].is_table() => {
+                (format!("[[{key}]] is not a list; write [{key}]"), tables[0].clone())
+            }
+            Value::Table(_) => {
+                (format!("[{key}] is one of a list; write [[{key}]]"), Value::Array(vec![value.clone()]))
+            }
+            _ => continue,
+        };
+        let mut changed = source.clone();
+        changed.insert(key.clone(), right);
+        if changed.try_into::<Scene>().is_ok() {
+            return SceneError::Line { file: path.to_owned(), line: line_of(text, key), problem };
+        }
+    }
+    of_line(text, path, error)
 }
 
 fn problem_of(error: &toml::de::Error) -> String {

@@ -55,6 +55,15 @@ fn a_key_that_is_missing_is_reported_at_its_table() {
 }
 
 #[test]
+fn a_table_that_is_written_as_a_list_and_a_list_that_is_written_as_a_table_are_named() {
+    let gravity = "[[gravity]]\nacceleration = [0, 0, -9.81]\n";
+    assert_refused(&format!("{LEAST}{gravity}"), 12, "[[gravity]] is not a list; write [gravity]");
+    assert_refused(&format!("{LEAST}{gravity}{gravity}"), 12, "[[gravity]] is written more than once; keep one");
+    let force = "[force]\nnodes = [0]\nvalue = [0, 0, 1]\n";
+    assert_refused(&format!("{LEAST}{force}"), 12, "[force] is one of a list; write [[force]]");
+}
+
+#[test]
 fn the_tables_of_the_engine_are_checked() {
     assert_refused(&format!("{LEAST}[newton]\nmax_iterations = 0\n"), 13, "newton.max_iterations is 0");
     for value in ["0", "-1e-9", "nan", "inf"] {
