@@ -141,7 +141,7 @@ impl<T: Float, const SIGNED: bool> Products<'_, T, SIGNED> {
                 let top = (self.diagonal + columns.start) / ROWS * ROWS;
                 for block in (top..self.rows).step_by(ROWS) {
                     let end = (block + ROWS).min(self.rows);
-                    self.copy_block::<S>(&mut block_A, first..first + depth, block..end);
+                    self.copy_block(&mut block_A, first..first + depth, block..end);
                     let mut column = columns.start;
                     while column < columns.end && self.diagonal + column < end {
                         let from = block.max((self.diagonal + column) / lanes * lanes);
@@ -156,14 +156,9 @@ impl<T: Float, const SIGNED: bool> Products<'_, T, SIGNED> {
     }
 
     /// Copies these rows of A, column by column.
-    #[inline(always)]
-    fn copy_block<S: Simd>(&self, block: &mut [T], depth: Range<usize>, rows: Range<usize>) {
+    fn copy_block(&self, block: &mut [T], depth: Range<usize>, rows: Range<usize>) {
         for (to, k) in block.chunks_exact_mut(ROWS).zip(depth) {
-            let from = T::packs::<S>(&self.A[k * self.stride_A..][rows.clone()]);
-            let to = T::packs_mut::<S>(&mut to[..rows.len()]);
-            for i in 0..to.len().min(from.len()) {
-                to[i] = from[i];
-            }
+            to[..rows.len()].copy_from_slice(&self.A[k * self.stride_A..][rows.clone()]);
         }
     }
 

@@ -69,7 +69,7 @@ impl<T: Real, const D: usize> Substitute<'_, T, D> {
         let z = &mut self.z[own];
         z.copy_from_slice(&x[..z.len()]);
         if let Some(signs) = self.signs.get(supernode.diagonal.clone()) {
-            z.iter_mut().zip(signs).for_each(|(z, &sign)| *z = *z * sign);
+            z.iter_mut().zip(signs).for_each(|(z, &sign)| *z *= sign);
         }
     }
 
