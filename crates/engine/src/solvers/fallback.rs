@@ -4,6 +4,7 @@
 //! definite.
 
 use super::direct::Reordered;
+use super::memory::available_memory;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_model::simulation::Breakdown;
@@ -62,20 +63,4 @@ fn without_verdict(breakdown: Breakdown) -> Breakdown {
         Breakdown::NotPositiveDefinite => Breakdown::NotConverged { residual: 1.0 },
         other => other,
     }
-}
-
-/// Memory that the operating system can give without swapping, in bytes; `None` where it does not say.
-fn available_memory() -> Option<usize> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kibibytes: usize = line.trim().trim_end_matches("kB").trim().parse().ok()?;
-    Some(kibibytes * 1024)
-}
-
-/// Returns true if the factor of a body of so many nodes is expected to fit into memory. In nested dissection of a compact body of n unknowns
-/// it grows as n^(4/3); those of cubes of 9 261 and 29 791 nodes and their workspaces take 234 and 1 194 MB, which is less than 40 n^(4/3)
-/// numbers of eight bytes; those of slender bodies take less.
-pub(crate) fn factor_fits(nodes: usize) -> bool {
-    let bytes = 8.0 * 40.0 * (3.0 * nodes as f64).powf(4.0 / 3.0);
-    available_memory().is_none_or(|available| bytes < available as f64)
 }

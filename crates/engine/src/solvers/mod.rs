@@ -11,6 +11,7 @@ mod direct;
 mod fallback;
 mod inverse;
 pub mod krylov;
+mod memory;
 mod parts;
 mod preconditioners;
 mod solver;
@@ -33,5 +34,5 @@ pub(crate) use assembly::DeviceElements;
 #[cfg(feature = "gpu")]
 pub use device::device as open_device;
 pub(crate) use device::unusable as unusable_device;
-pub(crate) use fallback::factor_fits;
 pub(crate) use inverse::{ApproximateInverse, Memory, Memoryless};
+pub(crate) use memory::factor_fits;

@@ -9,6 +9,7 @@ use super::substitute::Substitute;
 use super::symbolic::SymbolicFactor;
 use super::tasks::Task;
 use super::{assemble_columns, assemble_update, child_updates, compute_update, copy_matrix, zeros};
+use crate::solvers::memory::available_memory;
 use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
 use fem_elements::number::{Float, vectorized};
@@ -50,7 +51,8 @@ impl Lu {
         let symbolic = SymbolicFactor::new(&Pattern::new(pattern.rows(), &lower, Stored::Lower), 3, f64::MAX_WIDTH);
         let (rows, len) = (3 * pattern.rows(), Task::undivided(&symbolic).len_updates);
         let largest = symbolic.supernodes.iter().map(|supernode| supernode.stride).max().unwrap_or(0);
-        let memory = zeros([symbolic.len_L, symbolic.len_L, rows, len, len, largest, rows]);
+        let sizes = [symbolic.len_L, symbolic.len_L, rows, len, len, largest, rows];
+        let memory = zeros(sizes, available_memory());
         let fits = memory.is_some();
         let [L, U, inverse, of_L, of_U, front, solution] = memory.unwrap_or_default();
         Self {

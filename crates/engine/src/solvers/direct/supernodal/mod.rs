@@ -21,6 +21,7 @@ use substitute::Substitute;
 use symbolic::{RowRange, Supernode, SymbolicFactor};
 use tasks::Task;
 
+use crate::solvers::memory::available_memory;
 use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
 use fem_elements::number::{Float, vectorized};
@@ -48,21 +49,20 @@ pub(crate) struct Supernodal<T, const D: usize, const SIGNED: bool> {
 }
 
 impl<T: Real, const D: usize, const SIGNED: bool> Supernodal<T, D, SIGNED> {
-    /// Symbolic factorisation in the order of the rows; `pattern` stores the lower half.
+    /// Symbolic factorisation in the order of the rows; `pattern` stores the lower half. Where the factor and its workspace would not fit into
+    /// memory, every factorisation returns [`Breakdown::TooLarge`].
     pub(crate) fn new(pattern: &Pattern) -> Self {
-        Self::within(pattern, None)
+        Self::within(pattern, available_memory())
     }
 
-    /// The same. Where the factor and its workspace would take more than so many bytes, or more than there are, every factorisation
-    /// returns [`Breakdown::TooLarge`].
+    /// The same with a limit of so many bytes.
     pub(crate) fn within(pattern: &Pattern, limit: Option<usize>) -> Self {
         let symbolic = SymbolicFactor::new(pattern, D, <T as Float>::MAX_WIDTH);
         let task = Task::new(&symbolic);
         let rows = D * pattern.rows();
         let largest = symbolic.supernodes.iter().map(|supernode| supernode.stride).max().unwrap_or(0);
         let sizes = [symbolic.len_L, rows, if SIGNED { rows } else { 0 }, task.len_updates, largest];
-        let fits = limit.is_none_or(|limit| sizes.iter().sum::<usize>() * size_of::<T>() <= limit);
-        let memory = if fits { zeros(sizes) } else { None };
+        let memory = zeros(sizes, limit);
         let fits = memory.is_some();
         let [L, inverse, signs, updates, front] = memory.unwrap_or_default();
         Self { symbolic, task, fits, L, inverse, signs, updates, front }
@@ -105,8 +105,11 @@ impl<T: Real, const D: usize, const SIGNED: bool> Supernodal<T, D, SIGNED> {
     }
 }
 
-/// Zeros of these sizes; `None` if there is no memory for them.
-fn zeros<T: Real, const N: usize>(sizes: [usize; N]) -> Option<[Vec<T>; N]> {
+/// Zeros of these sizes; `None` if there is no memory for them, or they would take more than so many bytes.
+fn zeros<T: Real, const N: usize>(sizes: [usize; N], limit: Option<usize>) -> Option<[Vec<T>; N]> {
+    if limit.is_some_and(|limit| sizes.iter().sum::<usize>() > limit / size_of::<T>()) {
+        return None;
+    }
     let mut zeros = [const { Vec::new() }; N];
     for (zeros, size) in zeros.iter_mut().zip(sizes) {
         zeros.try_reserve_exact(size).ok()?;
