@@ -44,7 +44,8 @@ fn agrees_with_cholesky(beam: &Beam, most_iterations: usize, name: &str) {
     assert!(iterations <= most_iterations, "{name}: {iterations} iterations");
     subtract_from(&exact, &mut x);
     let error = norm(&x) / norm(&exact);
-    assert!(error < 1e-6, "{name}: {error}");
+    // Round-off alone moves the most slender one by 1e-6: its condition number is about 1e10.
+    assert!(error < 1e-5, "{name}: {error:e}");
 }
 
 #[test]
