@@ -102,8 +102,12 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
              drag.in_stiffness = true puts it in"
         );
     }
-    if let Some(expected) = expected_tip {
-        engine::print_tip(*simulation, expected);
+    // After a failure a body is in the state before its step: neither in equilibrium nor at the end of its loads.
+    if run.failure.is_none() {
+        if let Some(expected) = expected_tip {
+            engine::print_tip(*simulation, expected);
+        }
+        warn_of_loads(*simulation);
     }
     warn(*simulation);
     end
@@ -155,7 +159,7 @@ fn not_settled(method: &Method, unconverged_steps: usize, steps: usize) -> Strin
     )
 }
 
-/// Warns of a misleading result: inverted elements, or loads that are not fully applied.
+/// Warns of a misleading result: inverted elements, and what the simulation itself says.
 fn warn(simulation: &dyn Simulation) {
     let (name, inverted) = (simulation.name(), simulation.inverted_elements());
     if inverted > 0 {
@@ -175,6 +179,11 @@ fn warn(simulation: &dyn Simulation) {
              solver.kind = \"cholesky\" starts with it"
         );
     }
+}
+
+/// Warns of loads that are not fully applied.
+fn warn_of_loads(simulation: &dyn Simulation) {
+    let name = simulation.name();
     if let Some(factor) = simulation.load_factor().filter(|factor| *factor < 1.0) {
         let percent = (1e6 * factor).round() / 1e4;
         eprintln!(
