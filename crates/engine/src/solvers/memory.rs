@@ -9,9 +9,9 @@ pub(super) fn available_memory() -> Option<usize> {
 }
 
 /// Returns true if the factor of a body of so many nodes is expected to fit into memory. In nested dissection of a compact body of n unknowns
-/// it grows as n^(4/3); those of cubes of 9 261 and 29 791 nodes and their workspaces take 234 and 1 194 MB, which is less than 40 n^(4/3)
-/// numbers of eight bytes; those of slender bodies take less.
+/// it grows as n^(4/3); those of cubes of 9 261 and 29 791 nodes and their workspaces take 202 and 1 007 MB, 30 and 32 n^(4/3)
+/// numbers of eight bytes; those of slender bodies take less. A few more are asked for.
 pub(crate) fn factor_fits(nodes: usize) -> bool {
-    let bytes = 8.0 * 40.0 * (3.0 * nodes as f64).powf(4.0 / 3.0);
+    let bytes = 8.0 * 36.0 * (3.0 * nodes as f64).powf(4.0 / 3.0);
     available_memory().is_none_or(|available| bytes < available as f64)
 }

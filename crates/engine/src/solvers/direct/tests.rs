@@ -5,7 +5,7 @@ use super::{Ldlt, Lu, Reordered, SupernodalCholesky};
 use crate::solvers::ApproximateInverse;
 use crate::solvers::beam::{Beam, random};
 use crate::solvers::krylov::{parts, product};
-use fem_elements::sparse::{Block, Stored};
+use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_elements::vector::{norm, subtract_from};
 use fem_model::simulation::Breakdown;
 
@@ -72,19 +72,25 @@ fn an_lu_factor_refuses_a_matrix_with_a_row_of_zeros() {
     assert_eq!(ApproximateInverse::<f64>::prepare(&mut Lu::new(&beam.pattern), &values), Err(Breakdown::Singular));
 }
 
-#[test]
-fn a_factor_does_not_depend_on_the_number_of_threads() {
-    let beam = Beam::new(11, Stored::Lower);
-    let values = beam.values::<f64>();
-    let b = random(beam.pattern.rows(), 9);
-    let solutions = [1, 2, 5].map(|threads| {
+/// Solutions by factors that 1, 2 and 5 threads have computed.
+fn by_threads<F: ApproximateInverse<f64>>(beam: &Beam, new: impl Fn(&Pattern) -> F) -> [Vec<[f64; 3]>; 3] {
+    let (values, b) = (beam.values(), random(beam.pattern.rows(), 9));
+    [1, 2, 5].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let (mut factor, mut x) = (SupernodalCholesky::new(&beam.pattern), b.clone());
+        let (mut factor, mut x) = (new(&beam.pattern), b.clone());
         pool.install(|| factor.prepare(&values)).unwrap();
         factor.apply(&b, &mut x);
         x
-    });
-    assert!(solutions[0] == solutions[1] && solutions[1] == solutions[2]);
+    })
+}
+
+#[test]
+fn a_factor_does_not_depend_on_the_number_of_threads() {
+    let cholesky = by_threads(&Beam::new(11, Stored::Lower), SupernodalCholesky::new);
+    let lu = by_threads(&Beam::new(11, Stored::Full), Lu::new);
+    for [one, two, five] in [cholesky, lu] {
+        assert!(one == two && two == five);
+    }
 }
 
 #[test]

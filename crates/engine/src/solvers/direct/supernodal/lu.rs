@@ -2,13 +2,11 @@
 //! a diagonal block of a front, so that fronts stay those of the Cholesky factor: in the matrices of a body, rows elsewhere are no better.
 //! Always in double precision: pivots of a matrix that is nearly singular need it.
 
-use pulp::{Simd, WithSimd};
-
-use super::fronts::{Front, factor_front};
+use super::factorisation::Factorisation;
 use super::substitute::Substitute;
 use super::symbolic::SymbolicFactor;
 use super::tasks::Task;
-use super::{assemble_columns, assemble_update, child_updates, compute_update, copy_matrix, zeros};
+use super::zeros;
 use crate::solvers::memory::available_memory;
 use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
@@ -19,6 +17,7 @@ use fem_model::simulation::Breakdown;
 /// The factors with their workspace. Of each pair the first is about L, the second about Uᵀ, which has the same pattern.
 pub(crate) struct Lu {
     symbolic: SymbolicFactor,
+    task: Task,
     /// False if the factors do not fit into memory.
     fits: bool,
     /// Numbers of the blocks at (i, j) and (j, i) in the pattern of the matrix, for each block on or below the diagonal.
@@ -49,7 +48,8 @@ impl Lu {
         let blocks: Vec<[u32; 2]> =
             lower.iter().map(|&[row, column]| [find([row, column]), find([column, row])]).collect();
         let symbolic = SymbolicFactor::new(&Pattern::new(pattern.rows(), &lower, Stored::Lower), 3, f64::MAX_WIDTH);
-        let (rows, len) = (3 * pattern.rows(), Task::undivided(&symbolic).len_updates);
+        let task = Task::new(&symbolic);
+        let (rows, len) = (3 * pattern.rows(), task.len_updates);
         let largest = symbolic.supernodes.iter().map(|supernode| supernode.stride).max().unwrap_or(0);
         let sizes = [symbolic.len_L, symbolic.len_L, rows, len, len, largest, rows];
         let memory = zeros(sizes, available_memory());
@@ -57,6 +57,7 @@ impl Lu {
         let [L, U, inverse, of_L, of_U, front, solution] = memory.unwrap_or_default();
         Self {
             symbolic,
+            task,
             fits,
             values: [(); 2].map(|()| vec![[[0.0; 3]; 3]; blocks.len()]),
             blocks,
@@ -89,7 +90,21 @@ impl<T: Real> ApproximateInverse<T> for Lu {
                 }
             }
         }
-        vectorized(Factorisation(self))
+        let Self { symbolic, task, inverse: [_, inverse], swaps, .. } = self;
+        let values = self.values.each_ref().map(|values| &values[..]);
+        let columns = self.columns.each_mut().map(|columns| &mut columns[..]);
+        let updates = self.updates.each_mut().map(|updates| &mut updates[..]);
+        let signs = &mut [];
+        vectorized(Factorisation::<f64, 3, 2, false> {
+            symbolic,
+            task,
+            values,
+            columns,
+            inverse,
+            signs,
+            swaps,
+            updates,
+        })
     }
 
     fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
@@ -111,44 +126,5 @@ impl<T: Real> ApproximateInverse<T> for Lu {
         let both = self.columns[0].len() + self.updates[0].len() + self.inverse[0].len();
         let scalars = 2 * both + 18 * self.blocks.len() + self.front.len() + self.solution.len();
         8 * scalars + size_of_val(&self.blocks[..]) + size_of_val(&self.swaps[..]) + self.symbolic.bytes()
-    }
-}
-
-/// The numeric factorisation.
-struct Factorisation<'a>(&'a mut Lu);
-
-impl WithSimd for Factorisation<'_> {
-    type Output = Result<(), Breakdown>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Result<(), Breakdown> {
-        let Lu { symbolic, values, columns: [L, U], inverse: [_, inverse], swaps, updates, .. } = self.0;
-        let mut top = 0;
-        for (number, supernode) in symbolic.supernodes.iter().enumerate() {
-            let rows = supernode.diagonal.clone();
-            let mut columns = [&mut *L, &mut *U].map(|all| &mut all[supernode.columns.clone()]);
-            let children = symbolic.children(number);
-            let base = top - symbolic.len_updates_of(children);
-            for side in 0..2 {
-                copy_matrix(symbolic, supernode, &values[side], columns[side], &mut inverse[rows.clone()]);
-                for (child, update) in child_updates(symbolic, children, &updates[side][base..]) {
-                    assemble_columns::<f64, 3>(symbolic, child, update, supernode, columns[side]);
-                }
-            }
-            let [L, U] = &mut columns;
-            let (inverse, swaps) = (&mut inverse[rows.clone()], &mut swaps[rows.clone()]);
-            factor_front(simd, &mut Front { L, U, stride: supernode.stride, inverse, swaps })?;
-            for side in 0..2 {
-                let (below, own) = updates[side][base..].split_at_mut(top - base);
-                let own = &mut own[..supernode.len_update()];
-                compute_update::<f64, S, false>(simd, supernode, [columns[side], columns[1 - side]], &[], own);
-                for (child, update) in child_updates(symbolic, children, below) {
-                    assemble_update::<f64, 3>(symbolic, child, update, supernode, own);
-                }
-                updates[side].copy_within(top..top + supernode.len_update(), base);
-            }
-            top = base + supernode.len_update();
-        }
-        Ok(())
     }
 }

@@ -32,8 +32,8 @@ pub struct Supernode {
     pub stride: usize,
     /// Number of rows below its columns, and so of columns of its update matrix, scalars.
     pub below: usize,
-    /// Scalars from one column of its update matrix to the next.
-    pub update_stride: usize,
+    /// Rows of its update matrix with those that fill up the last register, scalars.
+    pub update_rows: usize,
     /// Supernodes whose update matrices are assembled into its front, in [`SymbolicFactor::children`].
     pub children: Range<usize>,
     /// True if its subtree takes long enough for a thread of its own.
@@ -42,10 +42,18 @@ pub struct Supernode {
 
 /// `count` rows that are contiguous both in a supernode's update matrix, at `from`, and in its parent's front, at `to`.
 #[derive(Clone, Copy)]
-pub struct RowRange {
-    pub from: u32,
-    pub to: u32,
-    pub count: u32,
+pub struct RowRange<N = u32> {
+    pub from: N,
+    pub to: N,
+    pub count: N,
+}
+
+impl RowRange {
+    /// The same in scalars, of which a row has D.
+    #[inline(always)]
+    pub fn scalars<const D: usize>(self) -> RowRange<usize> {
+        RowRange { from: D * self.from as usize, to: D * self.to as usize, count: D * self.count as usize }
+    }
 }
 
 /// The symbolic factorisation of a pattern.
@@ -64,10 +72,42 @@ pub struct SymbolicFactor {
     pub len_L: usize,
 }
 
+/// Columns of an update matrix that are stored together, from the row of the first one's diagonal entry on: nearly the lower half alone. A multiple
+/// of the scalars of a register, of the columns that a kernel processes together, and of the scalars of a node.
+const BLOCK: usize = 192;
+
 impl Supernode {
     /// Scalars of its update matrix.
     pub fn len_update(&self) -> usize {
-        self.below * self.update_stride
+        let last = self.update_blocks().saturating_sub(1);
+        let Range { start, end } = self.update_columns(last);
+        self.start_of_update(last) + (end - start) * (self.update_rows - start)
+    }
+
+    /// Number of the blocks of columns in which its update matrix is stored.
+    pub fn update_blocks(&self) -> usize {
+        self.below.div_ceil(BLOCK)
+    }
+
+    /// The columns of such a block. The first is also the first row that is stored.
+    pub fn update_columns(&self, block: usize) -> Range<usize> {
+        block * BLOCK..(block * BLOCK + BLOCK).min(self.below)
+    }
+
+    /// The first scalar of such a block.
+    pub fn start_of_update(&self, block: usize) -> usize {
+        BLOCK * (block * self.update_rows - BLOCK * (block * block.saturating_sub(1) / 2))
+    }
+
+    /// The place of a column of its update matrix from which its rows are counted; those before its block are not stored.
+    #[inline(always)]
+    pub fn update_column(&self, column: usize) -> usize {
+        if column < BLOCK {
+            return column * self.update_rows; // as in most fronts
+        }
+        let block = column / BLOCK;
+        let row = block * BLOCK;
+        self.start_of_update(block) + (column - row) * (self.update_rows - row) - row
     }
 }
 
@@ -125,8 +165,8 @@ impl SymbolicFactor {
 
     fn push(&mut self, draft: &Draft, parent: Option<&Draft>, size: usize, lanes: usize) {
         let (width, below) = (size * draft.nodes.len(), size * draft.rows.len());
-        let update_stride = below.next_multiple_of(lanes);
-        let stride = (width + update_stride).next_multiple_of(lanes);
+        let update_rows = below.next_multiple_of(lanes);
+        let stride = (width + update_rows).next_multiple_of(lanes);
         let rows = self.rows.len()..self.rows.len() + draft.rows.len();
         self.rows.extend(&draft.rows);
         let ranges = self.ranges.len();
@@ -146,7 +186,7 @@ impl SymbolicFactor {
             columns,
             stride,
             below,
-            update_stride,
+            update_rows,
             children: 0..0,
             is_large: false,
         });
@@ -295,7 +335,7 @@ fn parents(drafts: &[Draft], nodes: usize) -> Vec<Option<usize>> {
     drafts.iter().map(|draft| draft.rows.first().map(|&row| draft_of[row as usize])).collect()
 }
 
-/// Whether the elimination of the subtree of each draft takes long.
+/// For each draft, true if the elimination of its subtree takes long.
 fn large_subtrees(drafts: &[Draft], parents: &[Option<usize>], size: usize) -> Vec<bool> {
     let multiplications = |draft: &Draft| {
         let [width, below] = [draft.nodes.len(), draft.rows.len()].map(|nodes| (size * nodes) as f64);

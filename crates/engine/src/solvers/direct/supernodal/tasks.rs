@@ -35,15 +35,6 @@ impl Task {
             parts.push(Self::over(symbolic, first..root + 1, &[root]));
             first = root + 1;
         }
-        Self::with_parts(symbolic, supernodes, parts)
-    }
-
-    /// The whole factorisation by one thread.
-    pub fn undivided(symbolic: &SymbolicFactor) -> Self {
-        Self::with_parts(symbolic, 0..symbolic.supernodes.len(), Vec::new())
-    }
-
-    fn with_parts(symbolic: &SymbolicFactor, supernodes: Range<usize>, parts: Vec<Self>) -> Self {
         let of_parts = parts.iter().map(|part| part.len_updates).sum();
         let mut task = Self { supernodes, parts, len_updates: of_parts };
         let mut len = task.parts.iter().map(|part| part.len_update(symbolic)).sum::<usize>();
