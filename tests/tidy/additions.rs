@@ -44,23 +44,23 @@ const ADDITIONS: [Addition; 5] = [
             ("crates/elements/src/materials/mod.rs", "mod hencky;\n", "mod green;\nmod hencky;\n"),
             ("crates/elements/src/materials/mod.rs", "gent::Gent,\n", "gent::Gent,\n                green::Green,\n"),
             (
-                "crates/model/src/material.rs",
+                "crates/model/src/law.rs",
                 "    StVenantKirchhoff(Elastic),\n",
                 "    StVenantKirchhoff(Elastic),\n    /// Another.\n    Green(Elastic),\n",
             ),
-            ("crates/model/src/material.rs", "FACTS: [LawFacts; ", ONE_MORE),
+            ("crates/model/src/law.rs", "FACTS: [LawFacts; ", ONE_MORE),
             (
-                "crates/model/src/material.rs",
+                "crates/model/src/law.rs",
                 "            of(\"neo_hookean\"",
                 "            of_elastic(\"green\", false, None, |given| Self::Green(elastic(given))),\n            of(\"neo_hookean\"",
             ),
             (
-                "crates/model/src/material.rs",
+                "crates/model/src/law.rs",
                 "Self::StVenantKirchhoff(_) =>",
                 "Self::Green(_) => \"green\",\n            Self::StVenantKirchhoff(_) =>",
             ),
             (
-                "crates/model/src/material.rs",
+                "crates/model/src/law.rs",
                 "| Self::StVenantKirchhoff(elastic)",
                 "| Self::StVenantKirchhoff(elastic) | Self::Green(elastic)",
             ),

@@ -32,6 +32,7 @@ mod fibres;
 mod fields;
 mod integrator;
 mod interaction;
+mod law;
 mod loads;
 mod material;
 mod method;
@@ -58,10 +59,9 @@ pub use fibres::{FibreDirections, FibreFamily, FibreLaw};
 pub use fields::*;
 pub use integrator::{CONSISTENT_MASS, Facts, Family, Integrator};
 pub use interaction::{Anchor, Interaction};
+pub use law::{EdgeStiffness, Elastic, Given, Law, LawFacts, NeoHookean, PlaneState, VolumeEnergy};
 pub use loads::{Drag, NodalForce, Pressure, Spring, Traction, highest_node};
-pub use material::{
-    EdgeStiffness, Elastic, Given, Law, LawFacts, Material, NeoHookean, PlaneState, VolumeEnergy, Volumetric,
-};
+pub use material::{Material, Volumetric};
 pub use method::{Damping, DampingForm, IterationSettings, Method, NewmarkParameters, NewtonSettings, Projection};
 pub use planes::{ContactPlane, PlaneMotion};
 pub use plasticity::Plasticity;
