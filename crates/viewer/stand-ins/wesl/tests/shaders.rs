@@ -9,15 +9,28 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// Returns the folder of kiss3d's shaders.
 fn shaders() -> PathBuf {
-    let metadata = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version", "1", "--offline"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("cargo metadata runs");
-    let metadata: serde_json::Value = serde_json::from_slice(&metadata.stdout).expect("cargo metadata prints JSON");
+    let host = output(Command::new("rustc").args(["--print", "host-tuple"]));
+    let host = std::str::from_utf8(&host).expect("a name in UTF-8").trim();
+    // Packages of other systems need not be there.
+    let metadata = output(Command::new(env!("CARGO")).args([
+        "metadata",
+        "--format-version",
+        "1",
+        "--offline",
+        "--filter-platform",
+        host,
+    ]));
+    let metadata: serde_json::Value = serde_json::from_slice(&metadata).expect("cargo metadata prints JSON");
     let packages = metadata["packages"].as_array().expect("a list of packages");
     let kiss3d = packages.iter().find(|package| package["name"] == "kiss3d").expect("kiss3d is a dependency");
     Path::new(kiss3d["manifest_path"].as_str().expect("a path")).with_file_name("src").join("builtin")
+}
+
+/// Returns what a command prints.
+fn output(command: &mut Command) -> Vec<u8> {
+    let output = command.current_dir(env!("CARGO_MANIFEST_DIR")).output().expect("the command starts");
+    assert!(output.status.success(), "{command:?}: {}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
 }
 
 /// Returns a module's path in the imports of the shaders.
