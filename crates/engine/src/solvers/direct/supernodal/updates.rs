@@ -30,14 +30,14 @@ impl<T: Real, const D: usize, const SIGNED: bool> Update<'_, T, D, SIGNED> {
         }
     }
 
-    fn blocks<S: Simd>(&self, simd: S, blocks: Range<usize>, own: &mut [T]) {
-        let [start, middle] = [blocks.start, blocks.start.midpoint(blocks.end)];
+    fn blocks<S: Simd>(&self, simd: S, Range { start, end }: Range<usize>, own: &mut [T]) {
+        let middle = start.midpoint(end);
         if middle == start {
             return simd.vectorize(UpdateBlock { of: self, block: start, own });
         }
-        let [start, end] = [start, middle].map(|block| self.supernode.start_of_update(block));
-        let (left, right) = own.split_at_mut(end - start);
-        rayon::join(|| self.blocks(simd, blocks.start..middle, left), || self.blocks(simd, middle..blocks.end, right));
+        let scalars = self.supernode.start_of_update(middle) - self.supernode.start_of_update(start);
+        let (left, right) = own.split_at_mut(scalars);
+        rayon::join(|| self.blocks(simd, start..middle, left), || self.blocks(simd, middle..end, right));
     }
 }
 
