@@ -2,8 +2,8 @@
 
 use bevy::math::DVec3;
 use fem_model::simulation::Simulation;
-use fem_scene::tables::{DampingTable, GravityTable, PlaneTable};
-use fem_model::{Body, DirichletCondition, Integrator, Material};
+use fem_model::{Body, DirichletCondition, Integrator};
+use fem_scene::tables::{DampingTable, GravityTable, MaterialTable, PlaneTable};
 use fem_scene::{Pipeline, Scene, SceneError};
 
 use crate::soft_body::Source;

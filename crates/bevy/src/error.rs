@@ -2,8 +2,8 @@
 
 use bevy::ecs::entity::Entity;
 use bevy::ecs::message::Message;
-use fem_scene::SceneError;
 use fem_model::simulation::Failure;
+use fem_scene::SceneError;
 use thiserror::Error;
 
 /// A soft body was refused, or has stopped. It is written once for each such event.
