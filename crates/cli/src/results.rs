@@ -102,14 +102,12 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
              drag.in_stiffness = true puts it in"
         );
     }
-    // After a failure a body is in the state before its step: neither in equilibrium nor at the end of its loads.
-    if run.failure.is_none() {
-        if let Some(expected) = expected_tip {
-            engine::print_tip(*simulation, expected);
-        }
-        warn_of_loads(*simulation);
+    // The theory is that of all loads.
+    if let Some(expected) = expected_tip.filter(|_| run.failure.is_none()) {
+        engine::print_tip(*simulation, &expected);
     }
     warn(*simulation);
+    warn_of_loads(*simulation, run.failure.is_some());
     end
 }
 
@@ -181,16 +179,15 @@ fn warn(simulation: &dyn Simulation) {
     }
 }
 
-/// Warns of loads that are not fully applied.
-fn warn_of_loads(simulation: &dyn Simulation) {
-    let name = simulation.name();
-    if let Some(factor) = simulation.load_factor().filter(|factor| *factor < 1.0) {
-        let percent = (1e6 * factor).round() / 1e4;
-        eprintln!(
-            "warning: {name}: {percent} % of the loads and prescribed motions are on; make as many steps as \
-             static.load_steps, or leave --steps and time.steps out"
-        );
-    }
+/// Warns of loads that are not fully applied; after a failure they are those of the last state that was reached.
+fn warn_of_loads(simulation: &dyn Simulation, has_failed: bool) {
+    let Some(factor) = simulation.load_factor().filter(|factor| *factor < 1.0) else { return };
+    let (name, percent) = (simulation.name(), (1e6 * factor).round() / 1e4);
+    let more = match has_failed {
+        true => " in the last state that was reached",
+        false => "; make as many steps as static.load_steps, or leave --steps and time.steps out",
+    };
+    eprintln!("warning: {name}: {percent} % of the loads and prescribed motions are on{more}");
 }
 
 /// The step that an interrupted run has reached, and how to go on from there.

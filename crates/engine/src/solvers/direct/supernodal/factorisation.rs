@@ -66,9 +66,9 @@ impl<T: Real, const D: usize, const SIDES: usize, const SIGNED: bool> WithSimd
                 factor_front(simd, &mut Front { L, U, stride: supernode.stride, inverse, swaps })?;
             }
             for side in 0..SIDES {
-                let (below, own) = self.updates[side][base..].split_at_mut(top - base);
+                let (of_children, own) = self.updates[side][base..].split_at_mut(top - base);
                 let (A, B) = (&*columns[side], &*columns[SIDES - 1 - side]);
-                let update = Update::<T, D, SIGNED> { symbolic, supernode, children, below, A, B, signs };
+                let update = Update::<T, D, SIGNED> { symbolic, supernode, children, of_children, A, B, signs };
                 update.compute(simd, &mut own[..supernode.len_update()]);
                 self.updates[side].copy_within(top..top + supernode.len_update(), base);
             }
@@ -79,6 +79,7 @@ impl<T: Real, const D: usize, const SIDES: usize, const SIGNED: bool> WithSimd
 }
 
 impl<'a, T: Real, const D: usize, const SIDES: usize, const SIGNED: bool> Factorisation<'a, T, D, SIDES, SIGNED> {
+    /// The same, for its tasks: they take parts of it, and it goes on after them.
     fn borrowed(&mut self) -> Factorisation<'_, T, D, SIDES, SIGNED> {
         let Self { symbolic, task, values, .. } = *self;
         Factorisation {

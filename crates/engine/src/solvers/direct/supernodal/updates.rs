@@ -14,7 +14,7 @@ pub struct Update<'a, T, const D: usize, const SIGNED: bool> {
     pub supernode: &'a Supernode,
     /// The children, and their update matrices one after the other.
     pub children: &'a [usize],
-    pub below: &'a [T],
+    pub of_children: &'a [T],
     /// Columns of the supernode.
     pub A: &'a [T],
     pub B: &'a [T],
@@ -53,7 +53,8 @@ impl<T: Real, const D: usize, const SIGNED: bool> WithSimd for UpdateBlock<'_, T
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { of: &Update { symbolic, supernode, children, below, A, B, signs }, block, own } = self;
+        let Self { of, block, own } = self;
+        let &Update { symbolic, supernode, children, of_children, A, B, signs } = of;
         let columns = supernode.update_columns(block);
         let (depth, rows) = (supernode.diagonal.len(), supernode.update_rows - columns.start);
         let products = Products::<T, SIGNED> {
@@ -73,7 +74,7 @@ impl<T: Real, const D: usize, const SIGNED: bool> WithSimd for UpdateBlock<'_, T
         products.compute(simd);
         // The block in rows and columns of the front.
         let first = depth + columns.start;
-        for (child, update) in child_updates(symbolic, children, below) {
+        for (child, update) in child_updates(symbolic, children, of_children) {
             add_columns::<T, D>(symbolic, child, update, first..first + columns.len(), own, rows);
         }
     }
