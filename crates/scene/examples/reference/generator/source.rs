@@ -65,8 +65,10 @@ impl Source {
         paths.extend(
             [
                 "model/src/axis",
+                "model/src/elastic",
                 "model/src/fields",
                 "model/src/integrator",
+                "model/src/law",
                 "model/src/material",
                 "model/src/method",
                 "model/src/selector",
@@ -137,7 +139,7 @@ impl Source {
 type Listed = (&'static str, &'static str, &'static str, fn(&str) -> String);
 
 const MACROS: [Listed; 2] = [
-    ("material", "material", "$($(#[$doc])* pub $name: Option<f64>,)*", |name| format!("pub {name}: Option<f64>,")),
+    ("material", "law", "$($(#[$doc])* pub $name: Option<f64>,)*", |name| format!("pub {name}: Option<f64>,")),
     ("scene", "fields", "$($(#[$doc])* pub $table: Option<fem_model::$Field>,)*", |entry| {
         let (table, field) = entry.split_once(": ").unwrap_or((entry, ""));
         format!("pub {table}: Option<{field}>,")

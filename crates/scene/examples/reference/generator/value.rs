@@ -12,8 +12,8 @@ pub fn values(kind: &Type, source: &Source, link: impl Fn(&str) -> String) -> St
     if let Some(inner) = argument(kind, "Option") {
         return values(inner, source, link);
     }
-    let (word, name) = (word(kind), struct_or_enum(kind, source));
-    let Some(name) = name else {
+    let Some(name) = struct_or_enum(kind, source) else {
+        let word = word(kind);
         return if word.starts_with('[') { format!("`{word}`") } else { word };
     };
     let target = link(&name);
@@ -46,7 +46,7 @@ fn word(kind: &Type) -> String {
         "bool" => "`true`, `false`".to_owned(),
         "String" => "text".to_owned(),
         "PathBuf" => "path".to_owned(),
-        other => other.to_owned(),
+        other => panic!("`{other}` is in none of the files that `Source::read` reads"),
     }
 }
 
