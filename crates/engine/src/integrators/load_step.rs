@@ -3,6 +3,7 @@
 use fem_model::simulation::{Cause, Counters};
 
 use super::Convergence;
+use super::balance::Balance;
 use super::followers::Followers;
 use super::initial_guess::infeasible;
 use super::proximal::Proximal;
@@ -20,6 +21,7 @@ pub struct LoadStep<T: Real> {
     followers: Followers<T>,
     prescribed: Vec<[T; 3]>,
     step: Vec<[T; 3]>,
+    balance: Balance<T>,
     /// The stabilization of a body that nothing but obstacles can hold.
     proximal: Option<Proximal<T>>,
 }
@@ -27,12 +29,16 @@ pub struct LoadStep<T: Real> {
 /// Largest number of times that a load step is halved.
 const HALVINGS: i32 = 10;
 
+/// Tolerance of Newton's method where forces are not in balance, as a part of the given one.
+const FINEST: f64 = 1e-6;
+
 impl<T: Real> LoadStep<T> {
     /// Allocates its vectors for a body.
     pub fn new(newton: Newton<T>, system: &System<T>) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
         let proximal = system.modulus_of_free_body.map(|modulus| Proximal::new(system, modulus));
-        Self { newton, followers: Followers::new(system), prescribed: zero(), step: zero(), proximal }
+        let (followers, balance) = (Followers::new(system), Balance::new(system));
+        Self { newton, followers, prescribed: zero(), step: zero(), balance, proximal }
     }
 
     /// From one moment to another, in smaller parts where Newton's method fails.
@@ -67,8 +73,42 @@ impl<T: Real> LoadStep<T> {
         }
     }
 
-    /// Writes the increment from u to equilibrium at a moment into `step`.
+    /// Writes the increment from u to equilibrium at a moment into `step`. An error where forces are not in balance there.
     fn equilibrate(
+        &mut self,
+        system: &System<T>,
+        u: &[[T; 3]],
+        end: Moment,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        let outcome = self.find_equilibrium(system, u, end, counters)?;
+        let tolerance = self.newton.limits().tolerance;
+        let balanced = self.balance.check(system, (u, &self.step), end, tolerance);
+        if outcome == Convergence::NotConverged || balanced.is_ok() {
+            return Ok(outcome);
+        }
+        if self.proximal.is_none() {
+            self.refine(system, u, end, counters);
+        }
+        self.balance.check(system, (u, &self.step), end, tolerance).map(|()| outcome)
+    }
+
+    /// Goes on from `step` with a smaller tolerance, as far as Newton's method gets: forces show whether that is far enough.
+    fn refine(&mut self, system: &System<T>, u: &[[T; 3]], end: Moment, counters: &mut Counters) {
+        let Self { newton, followers, step, .. } = self;
+        let increment = Increment { start: u, end, inertia: None };
+        let tolerance = newton.limits().tolerance;
+        newton.forget();
+        newton.set_tolerance(FINEST * tolerance);
+        if let Some(start) = newton.start(&followers.potential(system, increment), step, counters) {
+            // An error may mean that rounding errors alone are left.
+            let _ = followers.minimize(newton, system, increment, start, step, counters);
+        }
+        newton.set_tolerance(tolerance);
+    }
+
+    /// The same without a look at the forces.
+    fn find_equilibrium(
         &mut self,
         system: &System<T>,
         u: &[[T; 3]],

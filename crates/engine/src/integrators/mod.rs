@@ -3,6 +3,7 @@
 
 mod accelerations;
 mod arc_length;
+mod balance;
 mod critical_time_step;
 mod descent;
 mod explicit_euler;

@@ -93,7 +93,8 @@ impl<T: Real> Proximal<T> {
         system.add_mass_times(T::of(self.sigma * self.scale), step, &mut self.residual);
         system.dirichlet.clear_constrained(&mut self.residual);
         let left = sum_of_sizes(&self.residual);
-        let [internal, loads] = system.sizes_of_forces(&self.u, end, &mut self.forces);
+        let internal = system.size_of_internal_forces(&self.u, end, &mut self.forces);
+        let loads = system.size_of_loads(&self.u, end, &mut self.forces);
         let size = f64::max(internal, loads);
         if left <= self.tolerance * size || (loads == 0.0 && left <= NEGLIGIBLE * self.tolerance * self.stiffness) {
             return Ok(true);

@@ -4,6 +4,7 @@
 use fem_model::simulation::{Cause, Counters, History};
 
 use super::arc_length::ArcLength;
+use super::balance::unbalanced;
 use super::load_step::LoadStep;
 use super::{Convergence, Integrator, Memory};
 use crate::forces::{HessianKind, Moment};
@@ -226,7 +227,12 @@ impl<T: Real> Linear<T> {
         solver.solve(values, right, solution, limits.solver_tolerance).map_err(Cause::Solver)?;
         system.dirichlet.clear_constrained(solution);
         axpy(1.0, solution, u);
-        if T::EPSILON.as_f64() > PRECISE { self.refine(solver, system, moment, u) } else { Ok(Convergence::Converged) }
+        let is_precise = T::EPSILON.as_f64() <= PRECISE
+            && (solver.is_iterative() || {
+                let [unbalanced, scale] = unbalanced(system, u, moment, right);
+                unbalanced <= PRECISE.sqrt() * scale
+            });
+        if is_precise { Ok(Convergence::Converged) } else { self.refine(solver, system, moment, u) }
     }
 
     /// Iterative refinement, Wilkinson, Rounding Errors in Algebraic Processes (1963): the factor of an ill-conditioned matrix loses

@@ -34,16 +34,23 @@ impl<T: Real> System<T> {
         })
     }
 
-    /// Sums of the sizes of all components of the internal forces of the body and of its loads on all nodes, N. `scratch` is overwritten.
-    pub fn sizes_of_forces(&self, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> [f64; 2] {
+    /// Sum of the sizes of all components of the internal forces of the body on all nodes, N. `scratch` is overwritten.
+    pub fn size_of_internal_forces(&self, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> f64 {
         scratch.fill([T::default(); 3]);
         self.elements.add_gradient(u, scratch);
-        let own = || self.forces.active().map(|(force, _)| force).filter(|force| !force.is_obstacle());
-        own().filter(|force| force.is_internal()).for_each(|force| force.subtract_force(u, moment, scratch));
-        let internal = sum_of_sizes(scratch);
+        self.add_size(true, u, moment, scratch)
+    }
+
+    /// The same of its loads.
+    pub fn size_of_loads(&self, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> f64 {
         scratch.fill([T::default(); 3]);
-        own().filter(|force| !force.is_internal()).for_each(|force| force.subtract_force(u, moment, scratch));
-        [internal, sum_of_sizes(scratch)]
+        self.add_size(false, u, moment, scratch)
+    }
+
+    fn add_size(&self, internal: bool, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> f64 {
+        let own = self.forces.active().map(|(force, _)| force).filter(|force| !force.is_obstacle());
+        own.filter(|force| force.is_internal() == internal).for_each(|force| force.subtract_force(u, moment, scratch));
+        sum_of_sizes(scratch)
     }
 
     /// The largest multiple of `direction` up to which the body stays outside the obstacles.

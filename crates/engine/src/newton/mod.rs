@@ -181,6 +181,11 @@ impl<T: Real> Newton<T> {
         &self.limits
     }
 
+    /// Sets the largest change of a coordinate in the last iteration, as a part of the body's length.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.limits.tolerance = tolerance;
+    }
+
     /// The linear solver.
     pub fn solver(&self) -> &Solver<T> {
         &self.solver

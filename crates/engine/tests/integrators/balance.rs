@@ -58,3 +58,57 @@ fn equilibrium_at_full_load_does_not_depend_on_the_number_of_load_steps() {
         }
     }
 }
+
+#[test]
+fn a_load_step_is_in_balance_or_fails_however_large_the_load_is() {
+    let mut kept = 0;
+    for pressure in [1e4, 6e4, 6e5, 6e6, 6e7, 6e8, 6e10] {
+        let mesh = "box = { size = [4, 1, 1], cells_per_unit = 3, pattern = \"kuhn\" }";
+        let text = format!(
+            "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\nmodel = \"neo_hookean\"\nyoung = 1e5\npoisson = 0.3\ndensity = 1000\n\
+             [fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n[[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n\
+             force_per_area = [-{pressure:e}, 0, 10]\n[time]\nintegrator = \"static\"\n"
+        );
+        let mut simulation = build(&text);
+        if simulation.step().is_err() {
+            continue;
+        }
+        kept += 1;
+        let [x, y, z] = simulation.reactions()[0].force;
+        let error = [x - pressure, y, z + 10.0].map(f64::abs).into_iter().fold(0.0, f64::max);
+        assert!(error <= 1e-6 * pressure, "{pressure:e} Pa: a reaction of ({x:e}, {y:e}, {z:e}) N");
+    }
+    assert!(kept >= 2, "{kept} of the loads have an equilibrium");
+}
+
+/// A bar of 100 m whose far half is a billion times as stiff as the near one, under 1 N at its end.
+fn stiff_half(model: &str, poisson: f64) -> String {
+    let material = |young: f64, poisson: f64| {
+        format!("model = \"{model}\"\nyoung = {young:e}\npoisson = {poisson}\ndensity = 1000\n")
+    };
+    format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [100, 1, 1], cells_per_unit = 2, pattern = \"kuhn\" }}\n[material]\n{}\
+         [[materials]]\nbox = {{ min = [50, -1, -1], max = [101, 2, 2] }}\n{}[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n\
+         [[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\nforce_per_area = [0, 0, -1]\n[time]\nintegrator = \"static\"\n",
+        material(1e5, poisson),
+        material(1e14, 0.3),
+    )
+}
+
+#[test]
+fn reactions_are_right_or_the_step_fails_where_a_part_is_a_billion_times_as_stiff() {
+    for model in ["linear", "neo_hookean", "st_venant_kirchhoff"] {
+        let mut kept = 0;
+        for poisson in [0.49, 0.49999, 0.4999999] {
+            let mut simulation = build(&stiff_half(model, poisson));
+            if simulation.step().is_err() {
+                continue;
+            }
+            kept += 1;
+            let [x, y, z] = simulation.reactions()[0].force;
+            let error = [x, y, z - 1.0].map(f64::abs).into_iter().fold(0.0, f64::max);
+            assert!(error <= 1e-3, "{model} with a ratio of {poisson}: a reaction of ({x:e}, {y:e}, {z:e}) N");
+        }
+        assert!(kept >= 1, "{model}: none has an equilibrium");
+    }
+}

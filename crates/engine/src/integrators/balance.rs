@@ -1,0 +1,77 @@
+//! The balance of forces in equilibrium: beside the size of Newton's last update, which says little where elements are nearly flat, or far stiffer
+//! than others. There an update can be as small as rounding errors far away from equilibrium.
+
+use fem_model::simulation::Cause;
+
+use crate::forces::Moment;
+use crate::model::system::System;
+use fem_elements::Real;
+use fem_elements::vector::{axpy, max_norm, sum_of_sizes};
+
+/// Largest sum of the sizes of unbalanced forces, as a part of loads or reactions.
+const UNBALANCED: f64 = 1e-3;
+
+/// The same as a part of the stresses in all elements, at least, and in tolerances of Newton's method: a body without loads may have stresses.
+const STRESSES: (f64, f64) = (1e-6, 1e2);
+
+/// Rounding errors of displacements, in machine epsilons.
+const ROUNDING: f64 = 10.0;
+
+/// Sums of the sizes of unbalanced forces, which `force` holds afterwards, and of loads or reactions, the larger ones, N.
+pub fn unbalanced<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment, force: &mut [[T; 3]]) -> [f64; 2] {
+    let loads = system.size_of_loads(u, moment, force);
+    system.undamped_force(u, moment, force);
+    let all = sum_of_sizes(force);
+    system.dirichlet.clear_constrained(force);
+    let unbalanced = sum_of_sizes(force);
+    [unbalanced, f64::max(loads, all - unbalanced)]
+}
+
+/// Vectors for its evaluation.
+pub struct Balance<T> {
+    u: Vec<[T; 3]>,
+    force: Vec<[T; 3]>,
+}
+
+impl<T: Real> Balance<T> {
+    /// Allocates its vectors for a body.
+    pub fn new(system: &System<T>) -> Self {
+        let zero = || vec![[T::default(); 3]; system.nodes()];
+        Self { u: zero(), force: zero() }
+    }
+
+    /// An error, if forces at the end of an increment from a start (m) are not in balance, as far as rounding errors and the tolerance of
+    /// Newton's method let them be.
+    pub fn check(
+        &mut self,
+        system: &System<T>,
+        (start, increment): (&[[T; 3]], &[[T; 3]]),
+        end: Moment,
+        tolerance: f64,
+    ) -> Result<(), Cause> {
+        self.u.copy_from_slice(start);
+        axpy(1.0, increment, &mut self.u);
+        let [unbalanced, scale] = unbalanced(system, &self.u, end, &mut self.force);
+        // NaN fails the comparisons.
+        if unbalanced <= UNBALANCED * scale {
+            return Ok(());
+        }
+        let [stresses, rounding] = sizes_in_elements(system, &self.u, end);
+        let part = f64::max(STRESSES.0, STRESSES.1 * tolerance);
+        match unbalanced <= part * stresses || unbalanced <= ROUNDING * rounding {
+            true => Ok(()),
+            false => Err(Cause::Stuck { unbalanced: max_norm(&self.force) }),
+        }
+    }
+}
+
+/// Sums over the elements of the forces of their stresses, and of those that rounding errors of displacements cause, N.
+fn sizes_in_elements<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) -> [f64; 2] {
+    let volumes = system.shape.mesh.volumes();
+    let stresses = system.stresses(u, moment);
+    let forces = stresses.iter().zip(&volumes).map(|(stress, volume)| stress.norm() * volume.powf(2.0 / 3.0));
+    let lengths: f64 = volumes.iter().map(|volume| volume.cbrt()).sum();
+    let modulus = system.elements.moduli().map(|[shear, bulk]| bulk + 4.0 / 3.0 * shear);
+    let modulus = modulus.fold(system.spring_modulus, f64::max);
+    [forces.sum(), T::EPSILON.as_f64() * max_norm(u) * modulus * lengths]
+}
