@@ -4,7 +4,7 @@
 use fem_model::simulation::{Cause, Counters, History};
 
 use super::arc_length::ArcLength;
-use super::balance::unbalanced;
+use super::balance::{Sizes, sizes};
 use super::load_step::LoadStep;
 use super::{Convergence, Integrator, Memory};
 use crate::forces::{HessianKind, Moment};
@@ -229,8 +229,8 @@ impl<T: Real> Linear<T> {
         axpy(1.0, solution, u);
         let is_precise = T::EPSILON.as_f64() <= PRECISE
             && (solver.is_iterative() || {
-                let [unbalanced, scale] = unbalanced(system, u, moment, right);
-                unbalanced <= PRECISE.sqrt() * scale
+                let Sizes { unbalanced, largest, .. } = sizes(system, u, moment, right);
+                unbalanced <= PRECISE.sqrt() * largest
             });
         if is_precise { Ok(Convergence::Converged) } else { self.refine(solver, system, moment, u) }
     }

@@ -137,7 +137,7 @@ impl Failure {
                     .to_owned()
             }
             Integrator::Static => {
-                "use more static.load_steps, smaller loads, or static.arc_length where the load has a limit point"
+                "use more static.load_steps, smaller loads, time.precision = \"f64\" in place of \"f32\", or static.arc_length where the load has a limit point"
                     .to_owned()
             }
             Integrator::ImplicitEuler => {
