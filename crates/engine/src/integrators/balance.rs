@@ -19,7 +19,9 @@ const ROUNDING: f64 = 10.0;
 
 /// Sums of the sizes of forces, N.
 pub struct Sizes {
+    /// What is left of all forces on free degrees of freedom.
     pub unbalanced: f64,
+    /// External forces, without those of obstacles.
     pub loads: f64,
     /// The larger one of loads and reactions.
     pub largest: f64,
@@ -67,7 +69,7 @@ impl<T: Real> Balance<T> {
         let [stresses, rounding] = sizes_in_elements(system, &self.u, end);
         let part = f64::max(STRESSES.0, STRESSES.1 * tolerance);
         let is_allowed = unbalanced <= part * stresses || unbalanced <= ROUNDING * rounding;
-        // Reactions alone may be nothing but errors, as those of a body that is turned. Those to loads show errors that do not cancel.
+        // Reactions alone may be nothing but errors, as those of a body that is turned; those to loads should be the loads.
         let shows = loads > 0.0 && !system.dirichlet.has_motion() && resultant(&self.force) > UNBALANCED * largest;
         if is_allowed && !shows { Ok(()) } else { Err(Cause::Stuck { unbalanced: max_norm(&self.force) }) }
     }

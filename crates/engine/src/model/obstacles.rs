@@ -38,16 +38,17 @@ impl<T: Real> System<T> {
     pub fn size_of_internal_forces(&self, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> f64 {
         scratch.fill([T::default(); 3]);
         self.elements.add_gradient(u, scratch);
-        self.add_size(true, u, moment, scratch)
+        self.size_with(true, u, moment, scratch)
     }
 
     /// The same of its loads.
     pub fn size_of_loads(&self, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> f64 {
         scratch.fill([T::default(); 3]);
-        self.add_size(false, u, moment, scratch)
+        self.size_with(false, u, moment, scratch)
     }
 
-    fn add_size(&self, internal: bool, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> f64 {
+    /// The same of what `scratch` holds together with internal forces beside the elements, or with loads.
+    fn size_with(&self, internal: bool, u: &[[T; 3]], moment: Moment, scratch: &mut [[T; 3]]) -> f64 {
         let own = self.forces.active().map(|(force, _)| force).filter(|force| !force.is_obstacle());
         own.filter(|force| force.is_internal() == internal).for_each(|force| force.subtract_force(u, moment, scratch));
         sum_of_sizes(scratch)
