@@ -68,10 +68,16 @@ impl<T: Real> Balance<T> {
         }
         let [stresses, rounding] = sizes_in_elements(system, &self.u, end);
         let part = f64::max(STRESSES.0, STRESSES.1 * tolerance);
-        let is_allowed = unbalanced <= part * stresses || unbalanced <= ROUNDING * rounding;
+        let is_rounding = unbalanced <= ROUNDING * rounding;
+        let is_allowed = is_rounding || unbalanced <= part * stresses;
         // Reactions alone may be nothing but errors, as those of a body that is turned; those to loads should be the loads.
-        let shows = loads > 0.0 && !system.dirichlet.has_motion() && resultant(&self.force) > UNBALANCED * largest;
-        if is_allowed && !shows { Ok(()) } else { Err(Cause::Stuck { unbalanced: max_norm(&self.force) }) }
+        let shows = loads > 0.0 && !system.dirichlet.has_motion() && resultant(&self.force) > UNBALANCED * loads;
+        let unbalanced = max_norm(&self.force);
+        match (is_allowed && !shows, is_rounding) {
+            (true, _) => Ok(()),
+            (false, true) => Err(Cause::RoundOff { unbalanced }),
+            (false, false) => Err(Cause::Stuck { unbalanced }),
+        }
     }
 }
 

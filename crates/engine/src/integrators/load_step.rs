@@ -64,7 +64,10 @@ impl<T: Real> LoadStep<T> {
                     at = next;
                     part *= 2.0;
                 }
-                Err(cause) if is_smallest || matches!(cause, Cause::Adrift { .. }) => return Err(cause),
+                // Smaller loads would not help.
+                Err(cause) if is_smallest || matches!(cause, Cause::Adrift { .. } | Cause::RoundOff { .. }) => {
+                    return Err(cause);
+                }
                 _ => part *= 0.5,
             }
             if at >= 1.0 {

