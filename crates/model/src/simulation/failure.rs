@@ -117,6 +117,9 @@ pub enum Breakdown {
     DeviceFailed,
 }
 
+/// The remedy for rounding errors of single precision.
+const IN_DOUBLE: &str = "time.precision = \"f64\" in place of \"f32\"";
+
 impl Failure {
     /// The failure of the step that follows the state at `time` (s) after `steps` steps of length `dt` (s).
     pub fn of_step(steps: usize, time: f64, dt: f64, integrator: Integrator, cause: Cause) -> Self {
@@ -126,28 +129,28 @@ impl Failure {
                 "give a larger time.adaptive.tolerance, or loads without jumps".to_owned()
             }
             _ if matches!(cause, Cause::InvertedAtCorner { .. }) => {
-                "use a finer mesh there, smaller loads, or mesh.order = 1, whose elements cannot be inverted in part".to_owned()
+                "use a finer mesh there, smaller loads, or mesh.order = 1, whose elements cannot be inverted in part"
+                    .to_owned()
             }
             _ if matches!(cause, Cause::Solver(breakdown) if breakdown.is_of_machine()) => {
                 "use solver.kind = \"pcg\"".to_owned()
             }
             Integrator::Static if matches!(cause, Cause::Adrift { .. }) => {
-                "constrain the motion along that force by [fixed] or [[prescribed]], or add an obstacle by [[planes]]".to_owned()
+                "constrain the motion along that force by [fixed] or [[prescribed]], or add an obstacle by [[planes]]"
+                    .to_owned()
             }
             Integrator::Static if matches!(cause, Cause::RoundOff { .. }) => {
-                "use time.precision = \"f64\" in place of \"f32\", or elements and moduli that differ less".to_owned()
+                format!("use {IN_DOUBLE}, or elements and moduli that differ less")
             }
             Integrator::Static if matches!(cause, Cause::Solver(Breakdown::NotConverged { .. })) => {
-                "use solver.kind = \"cholesky\"".to_owned()
+                format!("use solver.kind = \"cholesky\", or {IN_DOUBLE}")
             }
-            Integrator::Static if matches!(cause, Cause::Solver(_)) => {
-                "constrain the body so that it cannot move freely, or, under a nonlinear law, use more static.load_steps or smaller loads"
-                    .to_owned()
-            }
-            Integrator::Static => {
-                "use more static.load_steps, smaller loads, time.precision = \"f64\" in place of \"f32\", or static.arc_length where the load has a limit point"
-                    .to_owned()
-            }
+            Integrator::Static if matches!(cause, Cause::Solver(_)) => format!(
+                "constrain the body so that it cannot move freely, use {IN_DOUBLE}, or, under a nonlinear law, more static.load_steps or smaller loads"
+            ),
+            Integrator::Static => format!(
+                "use more static.load_steps, smaller loads, {IN_DOUBLE}, or static.arc_length where the load has a limit point"
+            ),
             Integrator::ImplicitEuler => {
                 format!("use a time step of {half} s or less, smaller loads, or a gentler pull")
             }
