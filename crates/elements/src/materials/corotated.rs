@@ -11,11 +11,12 @@
 use pulp::{Simd, WithSimd};
 
 use super::isotropic::{Principal, derivative_from, projected_derivative_from};
+use super::stretches::stretches;
 use super::{Law, NamedLaw, Terms};
 use crate::number::{Float, Number, constant};
 use crate::polar::SpaceRotation;
-use crate::svd::{Svd, svd, svd_in_plane};
-use crate::tensor::{Tensor, Tensor4, add_diagonal, dot, from_fn, green_strain, half, plus_identity};
+use crate::svd::Svd;
+use crate::tensor::{Tensor, Tensor4, add_diagonal, dot, from_fn, half};
 
 /// Lamé's constants of small strain, Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,37 +25,6 @@ pub struct Corotated<T> {
     pub mu: T,
     /// λ
     pub lambda: T,
-}
-
-/// F = U diag(1 + e) Vᵀ and e.
-#[inline(always)]
-pub(crate) fn stretches<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
-    with_strains(svd(&plus_identity(G)), G)
-}
-
-/// The same of a flat body, whose third row and column of G are zero, with rotations within the plane.
-#[inline(always)]
-pub(crate) fn stretches_in_plane<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
-    with_strains(svd_in_plane(G), G)
-}
-
-#[inline(always)]
-fn with_strains<T: Number>(F: Svd<T>, G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
-    let strain = green_strain(G);
-    let is_small = dot(&strain, &strain).lt(constant(0.0625));
-    let mut e = F.sigma;
-    for k in 0..3 {
-        let v = &F.V[k];
-        let mut green = T::zero();
-        for i in 0..3 {
-            green += v[i] * (strain[i][0] * v[0] + strain[i][1] * v[1] + strain[i][2] * v[2]);
-        }
-        // σ² − 1 = 2 vᵀEv has the digits that σ − 1 loses near rest. A mirror image is without strain, too.
-        let keeps_digits = is_small & F.sigma[k].gt(T::zero());
-        let from_strain = constant::<T>(2.0) * green / (F.sigma[k] + T::one());
-        e[k] = from_strain.select(keeps_digits, F.sigma[k] - T::one());
-    }
-    (F, e)
 }
 
 impl<T: Number> Corotated<T> {

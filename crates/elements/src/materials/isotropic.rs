@@ -62,7 +62,7 @@ fn add_negative_part<T: Number>(A: &mut Tensor<T>) {
 
 /// Eigenvalues of a symmetric A/size, unsorted, and unit eigenvectors: Jacobi, Über ein leichtes Verfahren (1846).
 #[inline(always)]
-fn eigen<T: Number>(A: &Tensor<T>, size: T) -> ([T; 3], [[T; 3]; 3]) {
+pub(super) fn eigen<T: Number>(A: &Tensor<T>, size: T) -> ([T; 3], [[T; 3]; 3]) {
     let inverse = T::one() / size;
     let mut diagonal = [A[0][0] * inverse, A[1][1] * inverse, A[2][2] * inverse];
     // The index of the entry of the axes i and j is the third axis.

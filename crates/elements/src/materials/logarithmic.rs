@@ -3,8 +3,8 @@
 //! P_i = τ_i/σ_i; Simo, Algorithms for Static and Dynamic Multiplicative Plasticity (1992), §2. The terms of the derivative divide
 //! out the differences of stretches, so that equal stretches give no 0/0.
 
-use super::corotated::stretches;
 use super::isotropic::Principal;
+use super::stretches::stretches;
 use crate::number::{Number, constant, minus_ln_1p};
 use crate::svd::Svd;
 use crate::tensor::{Tensor, half};

@@ -22,6 +22,7 @@ mod plane_corotated;
 mod quadratic_form;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
+mod stretches;
 mod vectorized;
 mod yeoh;
 
@@ -37,9 +38,9 @@ use crate::tensor::{Tensor, Tensor4, contracted};
 use any::laws;
 pub(crate) use any::{match_inlined_law, with_inlined_law};
 pub use corotated::OfRotation;
-pub(crate) use corotated::{stretches, stretches_in_plane};
 pub(crate) use isotropic::{derivative_from, derivative_in_basis, projected_derivative_from};
 pub(crate) use logarithmic::{Kirchhoff, Logarithmic};
+pub(crate) use stretches::{stretches, stretches_in_plane};
 
 /// Hands the list of all laws, each as `file::Law`, to another macro: first those for which the loops over tetrahedra are compiled, then
 /// those that they call by reference. A law of the first kind costs the build three kernels for each number type and instruction set,

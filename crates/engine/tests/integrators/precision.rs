@@ -66,6 +66,26 @@ fn slender_bodies_keep_the_digits_that_their_matrix_loses() {
 }
 
 #[test]
+fn every_law_carries_a_load_of_any_small_strain_in_single_precision() {
+    for law in Law::FACTS.iter().map(|facts| &facts.name) {
+        for pressure in [1e2, 1.0, 1e-1, 1e-3, 1e-6] {
+            let loads = format!(
+                "[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n[[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n\
+                 force_per_area = [{pressure:e}, 0, -{pressure:e}]\n"
+            );
+            let text = of_law(law, &soft("static", 1.0, &loads));
+            let [double, single] = ends(&text, 1);
+            let apart = distance(&double.positions(), &single.positions())
+                / distance(&double.positions(), &build(&text).positions());
+            assert!(apart < 1e-3, "{law} under {pressure:e} Pa: {apart:e} of the displacement");
+            let [x, _, z] = single.reactions()[0].force;
+            let error = (x + pressure).abs().max((z - pressure).abs()) / pressure;
+            assert!(error < 1e-4, "{law} under {pressure:e} Pa: reactions are {error:e} off");
+        }
+    }
+}
+
+#[test]
 fn a_tolerance_below_the_rounding_error_of_the_number_type_is_refused() {
     for (precision, tolerance, least) in [("f32", "1e-10", "9.5e-7"), ("f64", "1e-16", "1.8e-15")] {
         for integrator in ["implicit_euler", "static"] {
