@@ -30,7 +30,7 @@ use sections::Sections;
 /// Width of the panel including its margins, logical pixels.
 pub const WIDTH: f32 = 356.0;
 const CONTENT_WIDTH: f32 = 312.0;
-const HELP_WIDTH: f32 = 990.0; // of the text in one line
+const HELP_WIDTH: f32 = 1012.0; // of the text in one line
 const HELP: [&str; 4] = [
     "drag the body: pull  ·  drag beside it: turn  ·  middle button: move  ·  wheel: zoom  ·  \
      S surface  ·  C colours  ·  F forces  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit",
