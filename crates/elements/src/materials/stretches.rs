@@ -10,10 +10,10 @@ use crate::tensor::{Tensor, dot, green_strain, plus_identity, volume_change};
 /// ‖E‖² below which stretches come from Green's strain E.
 const SMALL: f64 = 0.0625;
 
-/// Strains below this count as it, so that they can be divided by.
+/// Smallest size of a strain that its entries are divided by.
 const TINY: f64 = 1e-30;
 
-/// F = U diag(1 + e) Vᵀ and e, where the strain is large in the order of [`svd`].
+/// F = U diag(1 + e) Vᵀ and e: those of a large strain in the order of [`svd`], those of a small one in any.
 #[inline(always)]
 pub(crate) fn stretches<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
     near_rest_or(
@@ -33,8 +33,8 @@ pub(crate) fn stretches_in_plane<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
     )
 }
 
-/// The stretches from Green's strain in lanes where it is small, else by another decomposition. The axes of F = 1 + G, which has lost digits of G,
-/// are off by the machine epsilon over the strain.
+/// The stretches from Green's strain where it is small, else by another decomposition. F = 1 + G loses digits of a small G, and its principal axes
+/// are wrong by the machine epsilon over the strain.
 #[inline(always)]
 fn near_rest_or<T: Number>(G: &Tensor<T>, other: impl FnOnce() -> Svd<T>) -> (Svd<T>, [T; 3]) {
     let strain = green_strain(G);

@@ -19,7 +19,7 @@ const ROUNDING: f64 = 10.0;
 
 /// Sums of the sizes of forces, N.
 pub struct Sizes {
-    /// What is left of all forces on free degrees of freedom.
+    /// Unbalanced forces on free degrees of freedom.
     pub unbalanced: f64,
     /// External forces, without those of obstacles.
     pub loads: f64,

@@ -71,7 +71,7 @@ pub enum Cause {
         /// The largest component of the residual, N.
         unbalanced: f64,
     },
-    /// Rounding errors are larger than what reactions and loads may differ by.
+    /// Forces are out of balance because of rounding errors alone, which are too large beside the loads.
     RoundOff {
         /// The largest component of the residual, N.
         unbalanced: f64,
@@ -241,7 +241,7 @@ impl fmt::Display for Failure {
                 "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"
             )?,
             Cause::RoundOff { unbalanced } => {
-                write!(f, "rounding errors are all that is left, and {unbalanced:.3e} N are not in balance")?;
+                write!(f, "rounding errors leave {unbalanced:.3e} N out of balance")?;
             }
         }
         write!(f, "; {}", self.remedy)?;
