@@ -1,12 +1,15 @@
 //! Checks that a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
 
-use fem_model::{Material, Method, Precision, Refusal};
+use fem_model::{Integrator, Material, Method, Precision, Refusal};
 
 use super::integrator::SMALLEST_TOLERANCE;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::is_positive;
+
+/// Largest strain from rounding errors of positions.
+const STRAIN: f64 = 1e-2;
 
 /// Refuses a tolerance of Newton's method below rounding error: it would iterate to its limit in every step.
 pub(super) fn check_tolerance(method: &Method, epsilon: f64) -> Result<(), Refusal> {
@@ -46,8 +49,28 @@ pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), 
     let forces = || system.forces.all().find_map(|(potential, _)| potential.out_of_range());
     match derived.or_else(forces) {
         Some((field, quantity)) => Err(Refusal::new(field, problem(method, quantity))),
-        None => Ok(()),
+        None => check_motions(method, system, &volumes),
     }
+}
+
+/// Refuses a motion to equilibrium so long that rounding errors of the positions strain the smallest element by [`STRAIN`].
+fn check_motions<T: Real>(method: &Method, system: &System<T>, volumes: &[f64]) -> Result<(), Refusal> {
+    if method.integrator != Integrator::Static {
+        return Ok(());
+    }
+    let size = volumes.iter().fold(f64::INFINITY, |least, &volume| least.min(volume)).cbrt();
+    for (condition, motion) in system.dirichlet.motions() {
+        let moved = |&node: &usize| (motion.position(&system.rest[node], 1.0) - system.rest[node]).amax();
+        let farthest = condition.nodes.iter().map(moved).fold(0.0, f64::max);
+        if farthest * T::EPSILON.as_f64() > STRAIN * size {
+            let (name, remedy) = precision(method);
+            let problem = format!(
+                "moves nodes by {farthest:.1e} m, where {name} precision does not resolve elements of {size:.1e} m; give a smaller motion{remedy}"
+            );
+            return Err(Refusal::new(&condition.name, problem));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses parameters whose signs make the material unstable at rest. Double precision rounds no allowed parameter to
@@ -70,9 +93,14 @@ fn is_stiff<T: Real>(modulus: T, volume: f64) -> bool {
 }
 
 fn problem(method: &Method, quantity: &str) -> String {
-    let (name, remedy) = match method.precision {
+    let (name, remedy) = precision(method);
+    format!("leads to {quantity} out of the range of {name} precision; give a less extreme number{remedy}")
+}
+
+/// The precision in words, and the remedy beside a less extreme number.
+fn precision(method: &Method) -> (&'static str, &'static str) {
+    match method.precision {
         Precision::F32 => ("single", ", or remove time.precision"),
         Precision::F64 => ("double", ""),
-    };
-    format!("leads to {quantity} out of the range of {name} precision; give a less extreme number{remedy}")
+    }
 }

@@ -258,6 +258,26 @@ fn numbers_out_of_range_are_refused_with_field_and_remedy() {
 }
 
 #[test]
+fn a_motion_to_equilibrium_beside_which_elements_are_lost_in_rounding_errors_is_refused() {
+    let moved = |far: &str, precision: &str| {
+        let text = edit(&by_method("static"), "\"f64\"", precision).replace("1e-9 }", "0 }");
+        let text = text.replace("tolerance = 1e-9", "tolerance = 1e-5");
+        let error = try_all(&edit(&text, "[0.01, 0.02, 0.03]", &format!("[{far}, 0.0, 0.0]"))).err();
+        error.map(|error| error.to_string()).filter(|error| error.contains("prescribed[0]"))
+    };
+    for (far, precision) in [("1e15", "\"f64\""), ("-1e30", "\"f64\""), ("1e6", "\"f32\"")] {
+        let error = moved(far, precision).unwrap_or_else(|| panic!("taken: {far} m in {precision}"));
+        assert!(
+            error.contains("precision does not resolve elements of") && error.contains("; give a smaller motion"),
+            "{error}"
+        );
+        assert_eq!(error.ends_with("or remove time.precision"), precision.contains("32"), "{error}");
+    }
+    assert_eq!(moved("1e12", "\"f64\""), None);
+    assert_eq!(moved("1e3", "\"f32\""), None);
+}
+
+#[test]
 fn what_is_out_of_the_range_of_single_precision_is_refused_with_that_remedy() {
     // Planes without thickness, so that a body of any size has two ends.
     let single =
