@@ -22,6 +22,7 @@ pub mod solids;
 pub mod sparse;
 pub mod svd;
 pub mod tensor;
+pub mod threads;
 pub mod vector;
 
 pub use real::Real;

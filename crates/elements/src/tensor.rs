@@ -1,6 +1,6 @@
 //! 3×3 matrices of kernel numbers, `a[i][j]` in row i and column j, with the operations that materials need.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, SMatrix, SymmetricEigen, U3};
 
 use crate::number::{Number, constant};
 
@@ -84,6 +84,18 @@ pub fn inverse(a: &Matrix3<f64>) -> Matrix3<f64> {
     }
     let cofactors = cofactor(&from_fn(|i, j| a[(i, j)]));
     Matrix3::from_fn(|i, j| cofactors[j][i] / determinant)
+}
+
+/// Eigenvalues and eigenvectors of a symmetric 3×3 matrix.
+pub fn symmetric_eigen(a: Matrix3<f64>) -> SymmetricEigen<f64, U3> {
+    a.symmetric_eigen()
+}
+
+/// A symmetric 9×9 matrix with its negative eigenvalues raised to zero; `None` where an entry is not finite.
+pub fn raised(H: SMatrix<f64, 9, 9>) -> Option<SMatrix<f64, 9, 9>> {
+    let mut eigen = SymmetricEigen::try_new(H, f64::EPSILON, 1000)?;
+    eigen.eigenvalues.apply(|value| *value = value.max(0.0));
+    Some(eigen.recompose())
 }
 
 /// a b

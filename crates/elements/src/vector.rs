@@ -2,9 +2,8 @@
 //!
 //! Inner products accumulate in double precision and in a fixed order, so that results do not depend on the number of threads.
 
-use rayon::prelude::*;
-
 use crate::number::Float;
+use crate::threads::{join, over_parts};
 
 /// Number of independent partial sums, so that an addition does not wait for the one before it.
 const PARTIAL_SUMS: usize = 8;
@@ -26,7 +25,7 @@ pub fn dot<T: Float>(x: &[[T; 3]], y: &[[T; 3]]) -> f64 {
     }
     let middle = nodes.div_ceil(CHUNK) / 2 * CHUNK;
     let (x, y) = (x.split_at(middle), y.split_at(middle));
-    let (a, b) = rayon::join(|| dot(x.0, y.0), || dot(x.1, y.1));
+    let (a, b) = join(|| dot(x.0, y.0), || dot(x.1, y.1));
     a + b
 }
 
@@ -85,7 +84,7 @@ fn update<T: Float>(x: &[[T; 3]], y: &mut [[T; 3]], update: impl Fn(T, &mut T) +
     if nodes <= CHUNK {
         over(x, y);
     } else {
-        y.par_chunks_mut(UPDATED).zip(x.par_chunks(UPDATED)).for_each(|(y, x)| over(x, y));
+        over_parts(y, UPDATED, &|first, y| over(&x[first..][..y.len()], y));
     }
 }
 
@@ -94,7 +93,7 @@ pub fn clear<X: Copy + Default + Send>(x: &mut [X]) {
     if x.len() <= CHUNK {
         x.fill(X::default());
     } else {
-        x.par_chunks_mut(CHUNK).for_each(|x| x.fill(X::default()));
+        over_parts(x, CHUNK, &|_, x| x.fill(X::default()));
     }
 }
 

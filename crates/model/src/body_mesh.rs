@@ -225,9 +225,7 @@ impl BodyMesh {
             false => Vector3::z(),
         });
         let change = [1, 2, 3].map(|k| if k < corners { self.derivative(nodes, k, L, &u) } else { Vector3::zeros() });
-        // A checked mesh has no element without volume.
-        let inverse = Matrix3::from_columns(&undeformed).try_inverse();
-        inverse.map_or(Matrix3::zeros(), |inverse| Matrix3::from_columns(&change) * inverse)
+        quotient(&Matrix3::from_columns(&change), &Matrix3::from_columns(&undeformed))
     }
 
     /// A lower bound of det F in a whole element for displacements `u` of its nodes, m: its value in a linear element. F is linear in a
@@ -364,4 +362,9 @@ macro_rules! with_elements {
             unreachable!("no element has {} nodes", mesh.element().nodes())
         }
     }};
+}
+
+/// a b⁻¹; zero where b is singular, which no element of a checked mesh is.
+fn quotient(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
+    b.try_inverse().map_or(Matrix3::zeros(), |inverse| a * inverse)
 }

@@ -2,9 +2,6 @@
 
 use std::marker::PhantomData;
 
-use pulp::WithSimd;
-use rayon::prelude::*;
-
 use super::chunk_sums::{
     AddEnergyAndGradientOf, AddGradientOf, AddStiffnessOf, AddStiffnessTimesOf, EnergyOf, InvertedOf, MinDetFOf,
     SquaresOf, smaller,
@@ -13,6 +10,8 @@ use super::parallel::over_chunks;
 use super::{BatchLaws, Chunk, Elements};
 use crate::number::{Float, Lanes, Number};
 use crate::sparse::Block;
+use crate::threads::reduce;
+use pulp::WithSimd;
 
 /// Work on a chunk in the widest lanes of this processor.
 macro_rules! with_widest_lanes {
@@ -103,7 +102,8 @@ impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E,
     /// Minimum of det F, and its element in the mesh.
     pub fn min_det_F(&self, u: &[[T; 3]]) -> (T, usize) {
         let of_chunk = |chunk: &Chunk<T, D, E, N>| with_widest_lanes!(T, MinDetFOf { chunk, u });
-        self.chunks.par_iter().map(of_chunk).reduce(|| (T::of(f64::INFINITY), 0), smaller)
+        let of = |chunks: &[Chunk<T, D, E, N>]| chunks.iter().map(of_chunk).fold((T::of(f64::INFINITY), 0), smaller);
+        reduce(&self.chunks, 1, &of, smaller)
     }
 
     /// Number of elements with det F ≤ 0.

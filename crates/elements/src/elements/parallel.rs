@@ -2,6 +2,7 @@
 
 use super::Chunk;
 use crate::number::Float;
+use crate::threads::join;
 
 /// The work on one chunk and its part of the output. One call per chunk takes no measurable time, and the loop is compiled once.
 pub(super) type Work<'a, T, X, const D: usize, const E: usize, const N: usize> =
@@ -35,8 +36,7 @@ fn recurse<T: Float, X: Send, const D: usize, const E: usize, const N: usize>(
             let (first, second) = chunks.split_at(chunks.len() / 2);
             let middle = first.last().map_or(start, end);
             let (left, right) = output.split_at_mut(middle - start);
-            let (a, b) =
-                rayon::join(|| recurse(first, left, start, end, work), || recurse(second, right, middle, end, work));
+            let (a, b) = join(|| recurse(first, left, start, end, work), || recurse(second, right, middle, end, work));
             a + b
         }
     }

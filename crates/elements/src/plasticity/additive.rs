@@ -12,7 +12,7 @@ use super::{Flow, Internal};
 use crate::materials::{Law, derivative_in_basis, stretches, stretches_in_plane};
 use crate::number::{Float, Number, constant};
 use crate::svd::Svd;
-use crate::tensor::{Tensor, Tensor4, dot, from_fn, half, map, trace};
+use crate::tensor::{self, Tensor, Tensor4, dot, from_fn, half, map, trace};
 
 /// Lamé's constants, Pa, and the plastic strain.
 #[derive(Clone, Copy, Debug)]
@@ -242,9 +242,7 @@ fn raised<T: Number>(H: &Tensor4<T>) -> Tensor4<T> {
     for lane in 0..T::LANES {
         let entry = |i: usize, j: usize| Float::as_f64(H[i][j].lane(lane));
         let matrix = nalgebra::SMatrix::<f64, 9, 9>::from_fn(entry);
-        let Some(eigen) = nalgebra::SymmetricEigen::try_new(matrix, f64::EPSILON, 1000) else { continue };
-        let values = eigen.eigenvalues.map(|value| value.max(0.0));
-        let raised = eigen.eigenvectors * nalgebra::SMatrix::from_diagonal(&values) * eigen.eigenvectors.transpose();
+        let Some(raised) = tensor::raised(matrix) else { continue };
         for i in 0..9 {
             for j in 0..9 {
                 result[i][j].set_lane(lane, <T::Element as Float>::of(raised[(i, j)]));

@@ -1,7 +1,7 @@
 //! Rigid modes: a body that can move without deforming has no unique static equilibrium.
 
 use fem_model::{Body, Refusal};
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use fem_elements::vector::triple;
 
@@ -34,7 +34,7 @@ pub(crate) fn free_part(body: &Body) -> Option<usize> {
     let grams = gram_matrices(body.shape.mesh.vertices(), &part, &constrained_directions(body));
     let joined: Vec<usize> = body.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
     let is_free = |root: usize| {
-        let values = grams[root].symmetric_eigenvalues();
+        let values = DMatrix::from_column_slice(6, 6, grams[root].as_slice()).symmetric_eigenvalues();
         // NaN is no constraint.
         !(values.min() > LEAST * values.max())
     };

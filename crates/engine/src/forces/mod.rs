@@ -89,13 +89,19 @@ impl<T: Real> Forces<T> {
 
     /// All forces that the scene asks for, active or not, and their timers.
     pub fn all(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
-        let own = self.potentials.iter().map(|(potential, timer)| (&**potential, timer));
-        own.chain(std::iter::once((&self.drag as &dyn Potential<T>, &self.drag_timer)))
+        self.first(self.potentials.len() + 1)
     }
 
     /// The same without the drag springs while there are none.
     pub fn active(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
-        self.all().take(self.potentials.len() + usize::from(self.drag.is_active()))
+        self.first(self.potentials.len() + usize::from(self.drag.is_active()))
+    }
+
+    fn first(&self, count: usize) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
+        (0..count).map(|number| match self.potentials.get(number) {
+            Some((potential, timer)) => (&**potential, timer),
+            None => (&self.drag as &dyn Potential<T>, &self.drag_timer),
+        })
     }
 
     /// Pairs of the nodes of a body that Hessians couple, in both orders.

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::numbering::Numbering;
 use fem_elements::Real;
+use fem_elements::tensor::inverse;
 
 /// The quadrature points of all elements, in the order of the mesh, with the engine's numbers of the nodes.
 pub struct Points {
@@ -73,7 +74,7 @@ pub fn shape_gradients(mesh: &BodyMesh, element: usize) -> impl Iterator<Item = 
     let (corners, x) = (mesh.corners_of(element), mesh.vertices());
     let edge = |k: usize| corners.get(k).map_or(Vector3::z(), |&corner| x[corner] - x[corners[0]]);
     // A checked mesh has no element without volume.
-    let inverse = Matrix3::from_columns(&[edge(1), edge(2), edge(3)]).try_inverse().unwrap_or_default();
+    let inverse = inverse(&Matrix3::from_columns(&[edge(1), edge(2), edge(3)]));
     let mut rows = [0, 1, 2].map(|k| inverse.row(k).transpose());
     rows[corners.len() - 1..].fill(Vector3::zeros());
     let of_corners = [-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]].map(<[f64; 3]>::from);

@@ -16,7 +16,7 @@ use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::materials::{AnyLaw, Law, cauchy_stress};
-use fem_elements::tensor::{Tensor, Tensor4};
+use fem_elements::tensor::{Tensor, Tensor4, inverse, symmetric_eigen};
 
 /// Key in the statistics.
 pub const NAME: &str = "viscosity";
@@ -121,7 +121,7 @@ impl Viscoelasticity {
         let mut H = match kind {
             HessianKind::Exact => law.derivative(&tensor(G)),
             HessianKind::Projected => {
-                let mut eigen = A.symmetric_eigen();
+                let mut eigen = symmetric_eigen(A);
                 eigen.eigenvalues.iter_mut().for_each(|value| *value = value.max(0.0));
                 A = eigen.recompose();
                 law.projected_derivative(&tensor(G))
@@ -142,7 +142,11 @@ impl Viscoelasticity {
     fn elastic_stress(&self, point: usize, G: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         let (law, F) = (self.law(point), Matrix3::identity() + G);
         let P = matrix(&Law::stress(law, &tensor(G)));
-        let S = if law.is_linear() { P } else { F.try_inverse()? * P };
+        let S = match law.is_linear() {
+            true => P,
+            false if F.determinant() == 0.0 => return None,
+            false => inverse(&F) * P,
+        };
         S.iter().all(|entry| entry.is_finite()).then(|| 0.5 * (S + S.transpose()))
     }
 

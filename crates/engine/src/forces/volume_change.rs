@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use fem_elements::Real;
 use fem_elements::sparse::Block;
+use fem_elements::tensor::raised;
 
 /// J − 1 of a displacement gradient, without the loss of digits near rest.
 pub fn change(G: &Matrix3<f64>) -> f64 {
@@ -42,9 +43,7 @@ pub fn projected(product: impl Fn(&Matrix3<f64>) -> Matrix3<f64>) -> SMatrix<f64
         let derivative = product(&unit);
         (0..9).for_each(|row| H[(row, column)] = derivative[(row / 3, row % 3)]);
     }
-    let mut eigen = H.symmetric_eigen();
-    eigen.eigenvalues.iter_mut().for_each(|value| *value = value.max(0.0));
-    eigen.recompose()
+    raised(H).unwrap_or(H)
 }
 
 /// Σ a_j H_(ij)(kl) b_l

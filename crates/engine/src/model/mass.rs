@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use fem_model::Body;
-use rayon::prelude::*;
 
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
+use fem_elements::threads::{join, over_parts};
 use fem_elements::vector::dot3;
 
 /// From this many rows on several threads share the rows of a product, so many at a time.
@@ -86,10 +86,9 @@ impl<T: Real> Mass<T> {
                 }
             }
             Self::Consistent(mass) if product.len() < ROWS_FOR_THREADS => mass.add_rows_times(0, factor, x, product),
-            Self::Consistent(mass) => product
-                .par_chunks_mut(CHUNK)
-                .enumerate()
-                .for_each(|(chunk, product)| mass.add_rows_times(chunk * CHUNK, factor, x, product)),
+            Self::Consistent(mass) => {
+                over_parts(product, CHUNK, &|first, product| mass.add_rows_times(first, factor, x, product));
+            }
         }
     }
 
@@ -199,7 +198,7 @@ impl<T: Real> Consistent<T> {
         if rows.len() > ROWS_FOR_THREADS {
             let middle = rows.start.midpoint(rows.end);
             let (left, right) = values.split_at_mut(pattern.starts[middle] - first);
-            rayon::join(
+            join(
                 || self.add_rows_to(factor, pattern, rows.start..middle, left),
                 || self.add_rows_to(factor, pattern, middle..rows.end, right),
             );

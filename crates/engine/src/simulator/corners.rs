@@ -1,10 +1,10 @@
 //! det F at the corners of quadratic elements, where it may be negative though it is positive at all quadrature points.
 
 use nalgebra::{Matrix3, Vector3};
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::model::system::System;
 use fem_elements::Real;
+use fem_elements::threads::reduce;
 
 /// The quadratic elements of a body whose law does not allow inversion; none in other bodies.
 pub(super) struct Corners {
@@ -24,8 +24,8 @@ struct Quadratic {
     det: f64,
 }
 
-/// Elements that one thread takes at least.
-const LEAST: usize = 512;
+/// Elements that one thread takes at a time, at most.
+const MOST: usize = 1024;
 
 impl Corners {
     pub(super) fn new<T: Real>(system: &System<T>) -> Self {
@@ -59,9 +59,12 @@ impl Corners {
     /// The smallest det F at a corner, and its element.
     pub(super) fn least<T: Real>(&self, system: &System<T>, u: &[[T; 3]]) -> (f64, usize) {
         let x = |node: usize| system.rest[node] + Vector3::from(u[node].map(T::as_f64));
-        let of = |one: &Quadratic| (self.least_of(one, x), one.element as usize);
         let smaller = |a: (f64, usize), b: (f64, usize)| if b.0 >= a.0 { a } else { b };
-        self.elements.par_iter().with_min_len(LEAST).map(of).reduce(|| (f64::INFINITY, 0), smaller)
+        let of = |elements: &[Quadratic]| {
+            let each = elements.iter().map(|one| (self.least_of(one, x), one.element as usize));
+            each.fold((f64::INFINITY, 0), smaller)
+        };
+        reduce(&self.elements, MOST, &of, smaller)
     }
 
     /// The smallest det F at a corner of an element whose nodes are at `x`, m. At corner i ∂x/∂L_k is 4 x_ik − x_k, where x_ik is the node

@@ -81,6 +81,9 @@ pub struct Setup {
     pub settings: Vec<Setting>,
 }
 
+/// What a case does with its setup.
+type Work = Box<dyn FnOnce(&Setup, Deadline) -> Result<Finding, Finding> + Send>;
+
 impl Setup {
     /// A box of 2 × 1 × 1 m of soft rubber, with cells of 1 m.
     pub fn small(integrator: Integrator, law: &'static str) -> Self {
@@ -151,13 +154,17 @@ impl Setup {
         parameters: String,
         work: impl FnOnce(&Self, Deadline) -> Result<Finding, Finding> + Send + 'static,
     ) -> Case {
+        self.case_of(family, case.into(), parameters, Box::new(work))
+    }
+
+    fn case_of(self, family: &'static str, case: String, parameters: String, work: Work) -> Case {
         let parameters = match self.elements {
             LINEAR => parameters,
             elements => format!("{parameters}, {elements}"),
         };
         Case {
             family,
-            case: case.into(),
+            case,
             parameters,
             integrator: self.integrator.name().to_owned(),
             material: self.law.to_owned(),

@@ -78,9 +78,13 @@ impl Table {
 
     /// A table with the cells of these columns.
     pub fn of<Row>(name: impl Into<String>, rows: &[Row], columns: &[Column<Row>]) -> Self {
-        let head = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
-        let row = |row: &Row| columns.iter().map(|(_, cell)| cell(row)).collect();
-        Self { name: name.into(), head, rows: rows.iter().map(row).collect() }
+        let head = columns.iter().map(|(name, _)| *name).collect();
+        Self::of_cells(name.into(), head, rows.len(), &|row, column| (columns[column].1)(&rows[row]))
+    }
+
+    fn of_cells(name: String, head: Vec<&str>, rows: usize, cell: &dyn Fn(usize, usize) -> String) -> Self {
+        let row = |row: usize| (0..head.len()).map(|column| cell(row, column)).collect();
+        Self { name, rows: (0..rows).map(row).collect(), head: head.into_iter().map(str::to_owned).collect() }
     }
 
     /// The text of its file.

@@ -1,7 +1,6 @@
 //! A sweep of vertex block descent: every node once, colour after colour.
 
 use fem_model::IterationSettings;
-use rayon::prelude::*;
 
 use super::chebyshev::Chebyshev;
 use super::groups::{corners, group};
@@ -15,6 +14,7 @@ use crate::integrators::relaxation::{BATCHES_FOR_THREADS, CHUNK, PlaneContacts, 
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::number::Number;
+use fem_elements::threads::over_parts_of_two;
 
 /// A body whose nodes descend one after the other.
 pub struct Descent<T: Real> {
@@ -78,14 +78,15 @@ impl<T: Real> Descent<T> {
         links.add_sums(nodes, color, u, sums);
         let lanes = &nodes.lanes[range.start * T::WIDTH..range.end * T::WIDTH];
         let inertia = Inertia { masses: &nodes.masses[range.clone()], over_dt2: 1.0 / step.dt2, inertial };
+        let solve_for = |first: usize, sums: &mut [Sums<T::Lanes>], steps: &mut [Steps<T::Lanes>]| {
+            let batches = first..first + sums.len();
+            let lanes = &lanes[batches.start * T::WIDTH..batches.end * T::WIDTH];
+            solve(Inertia { masses: &inertia.masses[batches], ..inertia }, lanes, u, sums, steps);
+        };
         if sums.len() < BATCHES_FOR_THREADS {
-            solve(inertia, lanes, u, sums, steps);
+            solve_for(0, sums, steps);
         } else {
-            let sums = sums.par_chunks_mut(CHUNK).zip(steps.par_chunks_mut(CHUNK));
-            let of_chunks = lanes.par_chunks(CHUNK * T::WIDTH).zip(inertia.masses.par_chunks(CHUNK));
-            sums.zip(of_chunks).for_each(|((sums, steps), (lanes, masses))| {
-                solve(Inertia { masses, ..inertia }, lanes, u, sums, steps);
-            });
+            over_parts_of_two((sums, steps), CHUNK, &solve_for);
         }
     }
 

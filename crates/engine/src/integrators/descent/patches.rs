@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::kernel::{ChangesOf, SumsOf};
 use super::nodes::NodeBatches;
 use super::search::Change;
@@ -16,6 +14,7 @@ use fem_elements::Real;
 use fem_elements::materials::Law;
 use fem_elements::number::{Lanes, Number};
 use fem_elements::solids::LawWork;
+use fem_elements::threads::over_parts;
 
 /// The elements of one material around all nodes.
 pub(super) struct Patches<T: Real, const E: usize> {
@@ -137,15 +136,16 @@ impl<T: Real, const E: usize> LawWork<T> for SumsOfColor<'_, T, E> {
 
     fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) {
         let Self { patches: Patches { slots, others, starts, .. }, nodes, color, u, sums } = self;
-        let add = |(first, sums): (usize, &mut [Sums<T::Lanes>])| {
+        let add = |first: usize, sums: &mut [Sums<T::Lanes>]| {
+            let first = color.start + first;
             let starts = &starts[first..=first + sums.len()];
             let lanes = &nodes.lanes[first * T::WIDTH..][..sums.len() * T::WIDTH];
             L::vectorize(SumsOf { law, allows_inversion, slots, others, starts, lanes, u, sums });
         };
         if sums.len() < BATCHES_FOR_THREADS {
-            add((color.start, sums));
+            add(0, sums);
         } else {
-            sums.par_chunks_mut(CHUNK).enumerate().for_each(|(i, sums)| add((color.start + i * CHUNK, sums)));
+            over_parts(sums, CHUNK, &add);
         }
     }
 }

@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 use super::sums::{Sums, UPPER};
 use fem_elements::number::Float;
 use fem_elements::number::{Lanes, Number, constant};
-use fem_elements::tensor::inverse;
+use fem_elements::tensor::{inverse, symmetric_eigen};
 
 /// Smallest pivot of a block that is solved as it is, as a part of its diagonal entry.
 const SMALLEST_PIVOT: f64 = 1e-5;
@@ -129,7 +129,7 @@ fn make_definite<L: Lanes>(weights: &[L; 3], sums: &mut Sums<L>) {
             continue;
         }
         let weights = Vector3::from([0, 1, 2].map(|i| weights[i].lane(lane).as_f64()));
-        let eigen = A.symmetric_eigen();
+        let eigen = symmetric_eigen(A);
         let largest = eigen.eigenvalues.amax();
         if eigen.eigenvalues.min() > 10.0 * SMALLEST_PIVOT * largest {
             continue;

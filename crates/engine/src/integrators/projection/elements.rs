@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::batch::{Batch, batch, factor};
 use super::kernel::CorrectionsOf;
 use super::rule::Sweep;
@@ -14,6 +12,7 @@ use fem_elements::materials::Law;
 use fem_elements::number::{Lanes, Number};
 use fem_elements::solids::LawWork;
 use fem_elements::tensor::zero;
+use fem_elements::threads::over_parts_of_two;
 
 /// The elements of one material, colour after colour.
 pub(super) struct Elements<T: Real, const N: usize> {
@@ -108,14 +107,14 @@ impl<T: Real, const N: usize> LawWork<T> for ColorsOf<'_, T, N> {
             let corners = &corners[color.start * T::WIDTH..color.end * T::WIDTH];
             let (batches, moves) = (&mut batches[color.clone()], &mut moves[..color.len()]);
             let places = &*u;
-            let correct = |((batches, moves), corners): ((&mut [_], &mut [_]), &[_])| {
+            let correct = |first: usize, batches: &mut [_], moves: &mut [_]| {
+                let corners = &corners[first * T::WIDTH..(first + batches.len()) * T::WIDTH];
                 L::vectorize(CorrectionsOf { law, allows_inversion, sweep, batches, moves, corners, u: places });
             };
             if batches.len() < BATCHES_FOR_THREADS {
-                correct(((batches, moves), corners));
+                correct(0, batches, moves);
             } else {
-                let parts = batches.par_chunks_mut(CHUNK).zip(moves.par_chunks_mut(CHUNK));
-                parts.zip(corners.par_chunks(CHUNK * T::WIDTH)).for_each(correct);
+                over_parts_of_two((batches, &mut *moves), CHUNK, &correct);
             }
             for (moves, corners) in moves.iter().zip(corners.chunks_exact(T::WIDTH)) {
                 for (lane, corners) in corners.iter().enumerate() {

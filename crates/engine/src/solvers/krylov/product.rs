@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
-use rayon::prelude::*;
 
 use crate::solvers::parts::Part;
 use fem_elements::Real;
 use fem_elements::number::vectorized;
 use fem_elements::sparse::{Block, Pattern, Stored};
+use fem_elements::threads::{join, over_parts};
 
 /// From this many rows on several threads share the rows. For fewer rows, waking the threads costs more than they save.
 const ROWS_FOR_THREADS: usize = 3000;
@@ -30,9 +30,7 @@ pub fn product<T: Real>(pattern: &Pattern, parts: &Part, values: &[Block<T, 3>],
     match pattern.stored {
         Stored::Lower => Lower { pattern, values, x, first: 0, y }.multiply(parts),
         Stored::Full if y.len() < ROWS_FOR_THREADS => vectorized(Rows { pattern, values, x, first: 0, y }),
-        Stored::Full => y.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, y)| {
-            vectorized(Rows { pattern, values, x, first: chunk * CHUNK, y });
-        }),
+        Stored::Full => over_parts(y, CHUNK, &|first, y| vectorized(Rows { pattern, values, x, first, y })),
     }
 }
 
@@ -84,7 +82,7 @@ impl<T: Real> Lower<'_, T> {
             let Self { pattern, values, x, first, ref mut y } = self;
             let (y_left, rest) = y.split_at_mut(left.rows.len());
             let y_right = &mut rest[..right.rows.len()];
-            rayon::join(
+            join(
                 || Lower { pattern, values, x, first, y: y_left }.multiply(left),
                 || Lower { pattern, values, x, first: right.rows.start, y: y_right }.multiply(right),
             );

@@ -126,6 +126,10 @@ pub fn part(
 ) -> Result<Part> {
     let meshes = if quick { &meshes[..short] } else { meshes };
     let levels = meshes.iter().map(|&cells| Ok((cells, solve(cells)?))).collect::<Result<Vec<_>>>()?;
+    Ok(part_of_levels((name, text), quantities, &levels))
+}
+
+fn part_of_levels((name, text): (&str, &str), quantities: &[Quantity], levels: &[(usize, Level)]) -> Part {
     let error = |(_, level): &(usize, Level), k: usize| level.values[k] / quantities[k].reference - 1.0;
     let marks = quantities.iter().enumerate().map(|(k, of)| {
         let (value, error) = levels.last().map_or((f64::NAN, f64::NAN), |level| (level.1.values[k], error(level, k)));
@@ -154,5 +158,5 @@ pub fn part(
         chart.series.push(Series::joined(of.name, (k, 0), levels.iter().map(dot)));
     }
     let caption = "Relative errors against the reference, of which the last digit is rounded.";
-    Ok(Part::new(text).marks(marks).tables([table]).chart(format!("benchmarks-{name}"), &chart, caption))
+    Part::new(text).marks(marks).tables([table]).chart(format!("benchmarks-{name}"), &chart, caption)
 }

@@ -85,12 +85,13 @@ fn frequencies(body: Body) -> Result<Vec<f64>> {
 
 /// The eigenvalues of a stiffness and a mass, ascending, and the eigenvectors, in any order.
 fn modes(stiffness: DMatrix<f64>, mass: DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>)> {
-    let lower = Cholesky::new(mass).and_then(|factor| factor.l().try_inverse());
-    let lower = lower.ok_or("the vectors of the subspace depend on each other")?;
-    let eigen = (&lower * (0.5 * (&stiffness + stiffness.transpose())) * lower.transpose()).symmetric_eigen();
+    let dependent = "the vectors of the subspace depend on each other";
+    let lower = Cholesky::new(mass).ok_or(dependent)?.l();
+    let by_lower = |A: DMatrix<f64>| lower.solve_lower_triangular(&A).ok_or(dependent);
+    let eigen = by_lower(by_lower(0.5 * (&stiffness + stiffness.transpose()))?.transpose())?.symmetric_eigen();
     let mut squares: Vec<f64> = eigen.eigenvalues.iter().copied().collect();
     squares.sort_by(f64::total_cmp);
-    Ok((squares, lower.transpose() * eigen.eigenvectors))
+    Ok((squares, lower.tr_solve_lower_triangular(&eigen.eigenvectors).ok_or(dependent)?))
 }
 
 /// The roots b = ω L² √(ρA/(E I)) of Huang's equation of a cantilever, as angular frequencies, rad/s, with Cowper's coefficient of shear.

@@ -96,6 +96,10 @@ fn edges([a, b, c]: [Vector2<f64>; 3]) -> Matrix2<f64> {
     Matrix2::from_columns(&[b - a, c - a])
 }
 
+fn inverse(A: &Matrix2<f64>) -> Matrix2<f64> {
+    Matrix2::new(A.m22, -A.m12, -A.m21, A.m11) / A.determinant()
+}
+
 /// Corotated energy density with the rotation of the first edge, J/m³: the QR decomposition of the edges has it as Q.
 fn by_qr(rest: [Vector2<f64>; 3], now: [Vector2<f64>; 3]) -> f64 {
     let (before, after) = (edges(rest), edges(now));
@@ -104,16 +108,14 @@ fn by_qr(rest: [Vector2<f64>; 3], now: [Vector2<f64>; 3]) -> f64 {
         Matrix2::new(first.x, -first.y, first.y, first.x)
     };
     let R = frame(&after) * frame(&before).transpose();
-    let Some(inverse) = before.try_inverse() else { return f64::NAN };
-    let S = R.transpose() * after * inverse;
+    let S = R.transpose() * after * inverse(&before);
     let strain = 0.5 * (S + S.transpose()) - Matrix2::identity();
     LAME * strain.norm_squared() + 0.5 * LAME * strain.trace().powi(2)
 }
 
 /// The engine's corotated energy density, J/m³.
 fn by_polar(rest: [Vector2<f64>; 3], now: [Vector2<f64>; 3]) -> f64 {
-    let Some(inverse) = edges(rest).try_inverse() else { return f64::NAN };
-    let F = edges(now) * inverse - Matrix2::identity();
+    let F = edges(now) * inverse(&edges(rest)) - Matrix2::identity();
     let G: Tensor<f64> = [[F.m11, F.m12, 0.0], [F.m21, F.m22, 0.0], [0.0; 3]];
     Corotated { mu: LAME, lambda: LAME }.energy(&G)
 }

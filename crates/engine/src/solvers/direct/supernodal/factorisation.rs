@@ -9,6 +9,7 @@ use super::tasks::Task;
 use super::updates::{Update, add_columns, child_updates};
 use fem_elements::Real;
 use fem_elements::sparse::Block;
+use fem_elements::threads::join;
 use fem_model::simulation::Breakdown;
 
 /// The numeric factorisation of a task's supernodes, with its parts of the factor and of the workspace. A symmetric matrix has one side, the
@@ -110,7 +111,7 @@ impl<'a, T: Real, const D: usize, const SIDES: usize, const SIGNED: bool> Factor
         if rest.is_empty() {
             return simd.vectorize(first);
         }
-        let (first, rest) = rayon::join(|| simd.vectorize(first), || self.side_by_side(simd, rest));
+        let (first, rest) = join(|| simd.vectorize(first), || self.side_by_side(simd, rest));
         first.and(rest)
     }
 

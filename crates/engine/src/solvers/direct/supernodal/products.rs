@@ -10,6 +10,7 @@ use pulp::{Simd, WithSimd};
 
 use fem_elements::number::Float;
 use fem_elements::number::Packed;
+use fem_elements::threads::join;
 
 /// Columns that a kernel processes together. A matrix whose number of columns is a multiple of three ends with three, others with single ones.
 pub const AT_ONCE: usize = 6;
@@ -64,7 +65,7 @@ impl<T: Float, const SIGNED: bool> Products<'_, T, SIGNED> {
             return simd.vectorize(Copied(self));
         }
         let (left, right) = self.halves();
-        rayon::join(|| left.share(simd), || right.share(simd));
+        join(|| left.share(simd), || right.share(simd));
     }
 
     fn multiplications(&self) -> usize {

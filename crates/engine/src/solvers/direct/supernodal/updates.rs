@@ -7,6 +7,7 @@ use pulp::{Simd, WithSimd};
 use super::products::Products;
 use super::symbolic::{RowRange, Supernode, SymbolicFactor};
 use fem_elements::Real;
+use fem_elements::threads::join;
 
 /// An update matrix −A S Bᵀ, with those of the children added (extend-add).
 pub struct Update<'a, T, const D: usize, const SIGNED: bool> {
@@ -37,7 +38,7 @@ impl<T: Real, const D: usize, const SIGNED: bool> Update<'_, T, D, SIGNED> {
         }
         let scalars = self.supernode.start_of_update(middle) - self.supernode.start_of_update(start);
         let (left, right) = own.split_at_mut(scalars);
-        rayon::join(|| self.blocks(simd, start..middle, left), || self.blocks(simd, middle..end, right));
+        join(|| self.blocks(simd, start..middle, left), || self.blocks(simd, middle..end, right));
     }
 }
 

@@ -5,6 +5,7 @@ use std::ops::Range;
 use pulp::{Simd, WithSimd};
 
 use fem_elements::number::vectorized;
+use fem_elements::threads::join;
 
 /// A matrix in block compressed sparse rows.
 #[derive(Clone)]
@@ -160,7 +161,7 @@ where
         let (left, right) = values.split_at_mut(starts[middle] - starts[rows.start]);
         let part = |rows, values| Product { A, B, starts, columns, last, rows, values };
         let (left, right) = (part(rows.start..middle, left), part(middle..rows.end, right));
-        rayon::join(|| left.compute(), || right.compute());
+        join(|| left.compute(), || right.compute());
     }
 }
 

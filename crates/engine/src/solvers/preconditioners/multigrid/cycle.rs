@@ -6,11 +6,11 @@
 use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
-use rayon::prelude::*;
 
 use super::blocks::{Blocks, row_times, sum_products};
 use crate::solvers::parts::Part;
 use fem_elements::number::vectorized;
+use fem_elements::threads::{join, over_parts};
 
 /// From this many numbers on several threads share the rows of a vector, so many at a time.
 const NUMBERS: [usize; 2] = [9000, 3000];
@@ -20,8 +20,7 @@ pub fn over_rows<X: Send, const D: usize>(rows: &mut [[X; D]], work: impl Fn(usi
     if D * rows.len() < NUMBERS[0] {
         return work(0, rows);
     }
-    let chunk = NUMBERS[1] / D;
-    rows.par_chunks_mut(chunk).enumerate().for_each(|(number, rows)| work(number * chunk, rows));
+    over_parts(rows, NUMBERS[1] / D, &work);
 }
 
 /// A x for a block.
@@ -58,7 +57,7 @@ impl<const D: usize> Smoother<'_, D> {
         if let Some([left, right]) = part.halves.as_deref() {
             let middle = part.middle() - first;
             let ((x_left, x_right), (r_left, r_right)) = (x.split_at_mut(middle), r.split_at_mut(middle));
-            rayon::join(|| self.forward(left, x_left, r_left), || self.forward(right, x_right, r_right));
+            join(|| self.forward(left, x_left, r_left), || self.forward(right, x_right, r_right));
         }
         vectorized(Forward { smoother: self, rows: part.own(), first, x, r });
     }
@@ -70,7 +69,7 @@ impl<const D: usize> Smoother<'_, D> {
         if let Some([left, right]) = part.halves.as_deref() {
             let middle = part.middle() - first;
             let ((x_left, x_right), (above_left, above_right)) = (x.split_at_mut(middle), above.split_at_mut(middle));
-            rayon::join(|| self.backward(left, x_left, above_left), || self.backward(right, x_right, above_right));
+            join(|| self.backward(left, x_left, above_left), || self.backward(right, x_right, above_right));
         }
     }
 }

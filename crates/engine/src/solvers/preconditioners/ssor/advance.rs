@@ -6,6 +6,7 @@ use super::super::coarse::Row;
 use super::{CHUNK, Pair};
 use crate::solvers::parts::Part;
 use fem_elements::number::vectorized;
+use fem_elements::threads::join;
 
 /// x += α t, r −= α (t + s).
 pub struct Advance<'a> {
@@ -21,7 +22,7 @@ impl<'a> Advance<'a> {
         let Some([left, right]) = part.halves.as_deref() else { return vectorized(self) };
         let [a, rest] = self.split(left.rows.len());
         let [b, own] = rest.split(right.rows.len());
-        let (a, b) = rayon::join(|| a.rows(left), || b.rows(right));
+        let (a, b) = join(|| a.rows(left), || b.rows(right));
         a + b + vectorized(own)
     }
 

@@ -11,6 +11,7 @@ use fem_elements::Real;
 use fem_elements::number::vectorized;
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::tensor::map;
+use fem_elements::threads::join;
 use fem_elements::vector::triple;
 use fem_model::simulation::Breakdown;
 
@@ -102,7 +103,7 @@ impl<T: Real> Rows<'_, T> {
         if let Some([left, right]) = part.halves.as_deref() {
             let [a, rest] = self.reborrow().split(right.rows.start);
             let [b, _] = rest.split(right.rows.end);
-            let (a, b) = rayon::join(|| a.factor(left), || b.factor(right));
+            let (a, b) = join(|| a.factor(left), || b.factor(right));
             a.and(b)?;
         }
         vectorized(Factor { all: self, rows: part.own() })

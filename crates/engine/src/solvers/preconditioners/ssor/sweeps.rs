@@ -18,6 +18,7 @@ use super::Pair;
 use super::scaled::{Scaled, Triangle};
 use super::shares::{Places, Sums};
 use crate::solvers::parts::Part;
+use fem_elements::threads::join;
 
 /// The next direction, p = r + (1 + L̃ᵀ) c + β p with the coarse correction c, t = (1 + L̃ᵀ)⁻¹ p, s = (L̃ + 1)⁻¹ (p + K t), and the
 /// change of the coarse residual along the direction.
@@ -47,7 +48,7 @@ impl Sweeps<'_> {
         let of_halves = match part.halves.as_deref() {
             Some([left, right]) => {
                 let [a, b] = self.halves(part);
-                let (a, b) = rayon::join(|| a.over(left), || b.over(right));
+                let (a, b) = join(|| a.over(left), || b.over(right));
                 a + b
             }
             None => 0.0,

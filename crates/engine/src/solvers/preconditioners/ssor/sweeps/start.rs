@@ -7,6 +7,7 @@ use super::super::scaled::Scaled;
 use super::super::shares::{Places, Sums};
 use crate::solvers::parts::Part;
 use fem_elements::Real;
+use fem_elements::threads::join;
 use fem_elements::vector::triple;
 
 /// r̃ = (L̃ + 1)⁻¹ G⁻¹ b and the coarse residual Pᵀ b, with b scaled by `factor`.
@@ -30,7 +31,7 @@ impl<T: Real> Start<'_, T> {
             let [residual_left, residual_right, _] = residual.split(part, &places);
             let (r_left, r_right) = r.split_at_mut(part.middle() - first);
             let start = |first, r, residual| Start { matrix, coarse, places, b, factor, first, r, residual };
-            rayon::join(
+            join(
                 || start(first, r_left, residual_left).over(left),
                 || start(part.middle(), r_right, residual_right).over(right),
             );
