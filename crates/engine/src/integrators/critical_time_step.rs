@@ -1,20 +1,18 @@
 //! The critical time step of explicit methods, from the fastest vibration of the undeformed body.
 
 use fem_model::{Integrator as IntegratorKind, NewmarkParameters};
-use nalgebra::{Complex, DMatrix};
+use nalgebra::Complex;
 
 use super::MassInverse;
 use crate::forces::Moment;
 use crate::model::damping::DampingRates;
 use crate::model::system::System;
+use crate::solvers::lanczos::{irregular, largest_eigenvalue};
 use fem_elements::Real;
-use fem_elements::vector::{axpy, dot, triple};
+use fem_elements::vector::dot;
 
-/// Relative change of an eigenvalue within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
+/// Relative change of an eigenvalue at which Lanczos's method ends, and its largest number of iterations.
 const ACCURACY: (f64, usize) = (1e-5, 96);
-
-/// Iterations between two evaluations of the eigenvalues.
-const BLOCK: usize = 8;
 
 /// The longest stable time step of a method for small vibrations about the undeformed body, s; a lower bound of it where dampers
 /// of springs are not in proportion to the stiffness. Zero for a method that is unstable at any time step, `None` for a method that is stable at
@@ -107,71 +105,25 @@ fn fastest_damper<T: Real>(system: &System<T>, rates: DampingRates<T>) -> f64 {
     rate.unwrap_or(0.0)
 }
 
-/// The largest eigenvalue of M⁻¹ A, for a symmetric A whose product with a vector `add_times` adds at the undeformed body, by Lanczos's
-/// method: Golub and Van Loan, Matrix Computations (2013), §10.1. It approaches the eigenvalue from below. `None` where A is zero.
+/// The largest eigenvalue of M⁻¹ A, for a symmetric A whose product with a vector `add_times` adds at the undeformed body. `None` where A is zero.
 fn largest_ratio<T: Real>(system: &System<T>, add_times: impl Fn(&[[T; 3]], &[[T; 3]], &mut [[T; 3]])) -> Option<f64> {
     let zero = || vec![[T::default(); 3]; system.nodes()];
-    let (undeformed, mut force, mut mass_times, mut before, mut next) = (zero(), zero(), zero(), zero(), zero());
+    let (undeformed, mut force, mut mass_times) = (zero(), zero(), zero());
     let mut inverse = MassInverse::new(&system.mass);
+    let mut apply = |x: &[[T; 3]], product: &mut [[T; 3]]| {
+        force.fill([T::default(); 3]);
+        add_times(&undeformed, x, &mut force);
+        let square = dot(x, &force);
+        inverse.solve(system, &mut force, product).ok().map(|()| square)
+    };
     let mut mass_norm = |x: &[[T; 3]]| {
         mass_times.fill([T::default(); 3]);
         system.add_mass_times(T::one(), x, &mut mass_times);
         dot(x, &mass_times).sqrt()
     };
-    let mut x = irregular(system.nodes());
-    system.dirichlet.clear_constrained(&mut x);
-    scale(1.0 / mass_norm(&x), &mut x);
-    let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
-    let (mut square, mut last) = (0.0, 0.0);
-    while diagonal.len() < ACCURACY.1 {
-        force.fill([T::default(); 3]);
-        add_times(&undeformed, &x, &mut force);
-        let alpha = dot(&x, &force);
-        inverse.solve(system, &mut force, &mut next).ok()?;
-        axpy(-alpha, &x, &mut next);
-        axpy(-last, &before, &mut next);
-        diagonal.push(alpha);
-        last = mass_norm(&next);
-        // A body of few degrees of freedom has no further direction.
-        let is_exhausted = !(last > 1e-9 * alpha.abs());
-        if is_exhausted || diagonal.len() % BLOCK == 0 {
-            let found = largest_eigenvalue(&diagonal, &beside);
-            let is_settled = (found - square).abs() <= ACCURACY.0 * found;
-            square = found;
-            if is_exhausted || is_settled {
-                break;
-            }
-        }
-        beside.push(last);
-        scale(1.0 / last, &mut next);
-        std::mem::swap(&mut before, &mut x);
-        std::mem::swap(&mut x, &mut next);
-    }
+    let mut start = irregular(system.nodes());
+    system.dirichlet.clear_constrained(&mut start);
+    let square = largest_eigenvalue(start, ACCURACY, &mut apply, &mut mass_norm)?;
     // NaN and zero fail the comparison: all nodes are constrained, or the stiffness is zero.
     (square > 0.0 && square.is_finite()).then_some(square)
-}
-
-/// The largest eigenvalue of a symmetric tridiagonal matrix; NaN where an entry is.
-fn largest_eigenvalue(diagonal: &[f64], beside: &[f64]) -> f64 {
-    if !diagonal.iter().chain(beside).all(|x| x.is_finite()) {
-        return f64::NAN;
-    }
-    let matrix = DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
-        0 => diagonal[i],
-        1 => beside[i.min(j)],
-        _ => 0.0,
-    });
-    matrix.symmetric_eigenvalues().max()
-}
-
-/// A start vector with a component along every vibration: multiples of the golden ratio, modulo 1.
-fn irregular<T: Real>(nodes: usize) -> Vec<[T; 3]> {
-    let entry = |k: usize| T::of((k as f64 * 0.618_033_988_749_894_9).fract() - 0.5);
-    (0..nodes).map(|node| triple(|i| entry(3 * node + i + 1))).collect()
-}
-
-fn scale<T: Real>(factor: f64, x: &mut [[T; 3]]) {
-    for x in x.as_flattened_mut() {
-        *x *= T::of(factor);
-    }
 }

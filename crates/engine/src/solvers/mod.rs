@@ -11,6 +11,7 @@ mod direct;
 mod fallback;
 mod inverse;
 pub mod krylov;
+pub mod lanczos;
 mod memory;
 mod parts;
 mod preconditioners;

@@ -14,6 +14,7 @@ use fem_chart::{Axis, Chart, Dot, Series};
 use fem_engine::forces::Moment;
 use fem_engine::simulator::double::{self, Solver, System};
 use fem_engine::solvers::krylov::{self, Workspace, conjugate_gradients};
+use fem_engine::solvers::lanczos::irregular;
 use fem_engine::solvers::{Preconditioner, SolverChoice};
 use fem_engine::sparse::Pattern;
 use fem_engine::vector::{dot, norm};
@@ -21,7 +22,7 @@ use fem_model::simulation::Breakdown;
 use fem_model::{Body, Integrator};
 use fem_scene::Scene;
 
-use crate::space::conditioning::{irregular, largest_eigenvalue};
+use crate::space::conditioning::largest_eigenvalue;
 use crate::study::{Case, Finished, Found, Mark, Page, Part, Study, Table, write};
 use incomplete_cholesky::IncompleteCholesky;
 use iterations::{conjugate_directions, steepest_descent};

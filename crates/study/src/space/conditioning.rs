@@ -7,17 +7,14 @@
 use fem_engine::simulator::Simulator;
 use fem_engine::simulator::double::{Solver, System, add_stiffness, add_stiffness_times};
 use fem_engine::solvers::SolverChoice;
+use fem_engine::solvers::lanczos::{self, irregular};
 use fem_engine::vector::dot;
 use fem_mesh::TetrahedralMesh;
 use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Preconditioner, Refusal, Region, Selector};
 use fem_model::{Precision, SolverKind, SolverSettings};
-use nalgebra::DMatrix;
 
-/// Relative change within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
+/// Relative change of an eigenvalue at which Lanczos's method ends, and its largest number of iterations.
 const ACCURACY: (f64, usize) = (1e-6, 400);
-
-/// Iterations between two looks at the eigenvalues.
-const BLOCK: usize = 8;
 
 /// Part of the longest side of the mesh in which nodes are fixed.
 const FIXED: f64 = 0.1;
@@ -81,71 +78,23 @@ fn clamped(mesh: &TetrahedralMesh, axis: Axis, below: f64) -> Result<Simulator<f
     Simulator::new(body, &Method { solver, ..Method::new(Integrator::ImplicitEuler, 1.0) })
 }
 
-/// The largest eigenvalue of a positive definite operator on the free nodes, which `apply` adds to zero, by Lanczos's method: Golub and Van Loan,
-/// Matrix Computations (2013), §10.1. It approaches the eigenvalue from below.
+/// The largest eigenvalue of a positive definite operator on the free nodes, which `apply` adds to zero.
 pub(crate) fn largest_eigenvalue(system: &System, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
-    let zero = || vec![[0.0; 3]; system.nodes()];
-    let (mut before, mut x, mut next) = (zero(), irregular(system.nodes()), zero());
-    system.dirichlet.clear_constrained(&mut x);
-    let length = dot(&x, &x).sqrt();
-    scale(1.0 / length, &mut x);
-    let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
-    let (mut found, mut last) = (0.0_f64, 0.0);
-    while diagonal.len() < ACCURACY.1 {
-        next.fill([0.0; 3]);
-        apply(&x, &mut next);
-        system.dirichlet.clear_constrained(&mut next);
-        let alpha = dot(&x, &next);
-        add(-alpha, &x, &mut next);
-        add(-last, &before, &mut next);
-        diagonal.push(alpha);
-        last = dot(&next, &next).sqrt();
-        // A body of few degrees of freedom has no further direction.
-        let is_exhausted = !(last > 1e-12 * alpha.abs());
-        if is_exhausted || diagonal.len() % BLOCK == 0 {
-            let eigenvalue = of_tridiagonal(&diagonal, &beside);
-            let is_settled = (eigenvalue - found).abs() <= ACCURACY.0 * eigenvalue;
-            found = eigenvalue;
-            if is_exhausted || is_settled {
-                break;
-            }
-        }
-        beside.push(last);
-        scale(1.0 / last, &mut next);
-        std::mem::swap(&mut before, &mut x);
-        std::mem::swap(&mut x, &mut next);
-    }
-    found
-}
-
-/// The largest eigenvalue of a symmetric tridiagonal matrix.
-fn of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> f64 {
-    let matrix = DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
-        0 => diagonal[i],
-        1 => beside[i.min(j)],
-        _ => 0.0,
-    });
-    matrix.symmetric_eigenvalues().max()
-}
-
-/// A vector in which every vibration takes part: multiples of the golden ratio, modulo 1.
-pub(crate) fn irregular(nodes: usize) -> Vec<[f64; 3]> {
-    let entry = |k: usize| (k as f64 * 0.618_033_988_749_894_9).fract() - 0.5;
-    (0..nodes).map(|node| std::array::from_fn(|i| entry(3 * node + i + 1))).collect()
-}
-
-fn scale(factor: f64, x: &mut [[f64; 3]]) {
-    x.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
-}
-
-fn add(factor: f64, x: &[[f64; 3]], sum: &mut [[f64; 3]]) {
-    sum.as_flattened_mut().iter_mut().zip(x.as_flattened()).for_each(|(sum, x)| *sum += factor * x);
+    let mut start = irregular(system.nodes());
+    system.dirichlet.clear_constrained(&mut start);
+    let mut product = |x: &[[f64; 3]], product: &mut [[f64; 3]]| {
+        product.fill([0.0; 3]);
+        apply(x, product);
+        system.dirichlet.clear_constrained(product);
+        Some(dot(x, product))
+    };
+    lanczos::largest_eigenvalue(start, ACCURACY, &mut product, &mut |x| dot(x, x).sqrt()).unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
+    use nalgebra::{DMatrix, Vector3};
 
     /// The largest and the smallest eigenvalue of the free nodes' stiffness as a full matrix.
     fn dense(mesh: &TetrahedralMesh, axis: usize) -> [f64; 2] {
