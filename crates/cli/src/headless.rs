@@ -27,6 +27,7 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
     let mut checkpoints = Checkpoints::new(arguments, scene);
     let signals = Signals::catch()?;
     let bar = progress_bar(steps);
+    let watch = signals.watch(&bar);
 
     pictures.record(&*simulation)?;
     log.add(&*simulation)?;
@@ -40,6 +41,7 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
         }
         Ok(if signals.received().is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     })?;
+    drop(watch);
     bar.finish_and_clear();
 
     // After a failure the last checkpoint is kept, so that a run with shorter steps can continue from it.

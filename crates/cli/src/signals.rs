@@ -2,11 +2,17 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
 
+use indicatif::ProgressBar;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use crate::end::End;
+
+/// Time between two looks at the signal. A step that goes on for longer is not silent.
+const LOOK: Duration = Duration::from_millis(500);
 
 /// The signal that has been received.
 pub struct Signals(Arc<AtomicUsize>);
@@ -29,6 +35,29 @@ impl Signals {
     #[cfg(feature = "viewer")]
     pub fn number(&self) -> Arc<AtomicUsize> {
         Arc::clone(&self.0)
+    }
+
+    /// Says what a second signal does, where a step goes on after the first, until what it returns is dropped.
+    pub fn watch(&self, bar: &ProgressBar) -> Arc<()> {
+        let (running, number, bar) = (Arc::new(()), Arc::clone(&self.0), bar.clone());
+        let run = Arc::downgrade(&running);
+        // Where there can be no thread, the note alone is missing.
+        let _ = thread::Builder::new().spawn(move || {
+            let mut is_second_look = false;
+            while run.strong_count() > 0 {
+                thread::sleep(LOOK);
+                let has_signal = number.load(Ordering::Relaxed) > 0 && run.strong_count() > 0;
+                if has_signal && is_second_look {
+                    return bar.suspend(|| {
+                        eprintln!(
+                            "the run ends after this step; the same signal again ends it at once, without its files"
+                        )
+                    });
+                }
+                is_second_look = has_signal;
+            }
+        });
+        running
     }
 
     /// The exit code of the signal that has been received, if one has.
