@@ -86,7 +86,7 @@ pub fn inverse(a: &Matrix3<f64>) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| cofactors[j][i] / determinant)
 }
 
-/// Eigenvalues and eigenvectors of a symmetric 3×3 matrix.
+/// Eigenvalues and eigenvectors of a symmetric 3×3 matrix. nalgebra's code is long, and compiled once here.
 pub fn symmetric_eigen(a: Matrix3<f64>) -> SymmetricEigen<f64, U3> {
     a.symmetric_eigen()
 }

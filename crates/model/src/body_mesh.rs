@@ -364,7 +364,7 @@ macro_rules! with_elements {
     }};
 }
 
-/// a b⁻¹; zero where b is singular, which no element of a checked mesh is.
+/// a b⁻¹; zero where b is singular, which no element of a checked mesh is. Not generic, so that the long code of the inverse is compiled once.
 fn quotient(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
     b.try_inverse().map_or(Matrix3::zeros(), |inverse| a * inverse)
 }

@@ -34,6 +34,7 @@ pub(crate) fn free_part(body: &Body) -> Option<usize> {
     let grams = gram_matrices(body.shape.mesh.vertices(), &part, &constrained_directions(body));
     let joined: Vec<usize> = body.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
     let is_free = |root: usize| {
+        // Matrices of any size: the engine has their eigenvalues compiled already.
         let values = DMatrix::from_column_slice(6, 6, grams[root].as_slice()).symmetric_eigenvalues();
         // NaN is no constraint.
         !(values.min() > LEAST * values.max())

@@ -81,7 +81,7 @@ pub struct Setup {
     pub settings: Vec<Setting>,
 }
 
-/// What a case does with its setup.
+/// Runs a case with its setup.
 type Work = Box<dyn FnOnce(&Setup, Deadline) -> Result<Finding, Finding> + Send>;
 
 impl Setup {
