@@ -104,14 +104,14 @@ const ADDITIONS: [Addition; 5] = [
     Addition {
         name: "a preconditioner",
         file: (
-            "crates/engine/src/solvers/preconditioners/node_blocks.rs",
-            "crates/engine/src/solvers/preconditioners/block_jacobi.rs",
+            "crates/solvers/src/preconditioners/node_blocks.rs",
+            "crates/solvers/src/preconditioners/block_jacobi.rs",
             &[("BlockJacobi", "NodeBlocks"), ("block_jacobi.", "node_blocks.")],
         ),
         edits: &[
-            ("crates/engine/src/solvers/preconditioners/mod.rs", "mod ssor;\n", "mod node_blocks;\nmod ssor;\n"),
+            ("crates/solvers/src/preconditioners/mod.rs", "mod ssor;\n", "mod node_blocks;\nmod ssor;\n"),
             (
-                "crates/engine/src/solvers/preconditioners/mod.rs",
+                "crates/solvers/src/preconditioners/mod.rs",
                 "        Preconditioner::Ssor =>",
                 "        Preconditioner::NodeBlocks => Box::new(node_blocks::NodeBlocks::new(pattern)),\n        Preconditioner::Ssor =>",
             ),

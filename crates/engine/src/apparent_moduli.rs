@@ -13,8 +13,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::forces::{HessianKind, mass_spring};
 use crate::model::system::System;
-use crate::solvers::{Preconditioner, Solver, SolverChoice};
 use fem_elements::vector::{axpy, dot};
+use fem_solvers::{Preconditioner, Solver, SolverChoice};
 
 /// Number of nodes up to which one factor is cheaper than iterations for each strain.
 const DIRECT: usize = 20_000;

@@ -31,7 +31,8 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
-pub use fem_elements::{Real, elements, materials, number, plasticity, sparse, svd, tensor, vector};
+pub use fem_elements::{elements, materials, number, plasticity, sparse, svd, tensor, vector};
+pub use fem_solvers::{self as solvers, Real, numbering};
 
 pub mod apparent_moduli;
 pub mod batch;
@@ -41,9 +42,7 @@ pub mod forces;
 pub mod integrators;
 pub mod model;
 pub mod newton;
-pub mod numbering;
 mod pick;
 pub mod profile;
 pub mod simulator;
 pub mod skinning;
-pub mod solvers;

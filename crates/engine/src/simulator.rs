@@ -37,12 +37,12 @@ use crate::forces::{self, Moment, drag};
 use crate::integrators::Integrator;
 use crate::model::state::State;
 use crate::model::system::{OwnForces, System};
-use crate::numbering::Numbering;
 use crate::skinning::Skinning;
-use crate::solvers::SolverChoice;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::check_instructions;
+use fem_solvers::Real;
+use fem_solvers::SolverChoice;
+use fem_solvers::numbering::Numbering;
 
 use adaptive::Control;
 use contact::Contacts;

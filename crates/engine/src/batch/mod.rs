@@ -10,7 +10,7 @@ mod processor;
 use fem_model::simulation::Failure;
 use fem_model::{Batch as Values, Body, EnvironmentValues, Method, Refusal, SolverKind};
 
-use crate::solvers::unusable_device;
+use fem_solvers::unusable_device;
 use processor::OnProcessor;
 
 /// Positions (m) and velocities (m/s) of all nodes, in the mesh's numbering.

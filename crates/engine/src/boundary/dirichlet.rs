@@ -8,10 +8,10 @@ use fem_model::{Body, DirichletCondition, Motion, is_before};
 use nalgebra::Vector3;
 
 use crate::forces::Moment;
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_elements::vector::{scale, triple};
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// The Dirichlet conditions of a body. Nodes have the engine's numbers; those from `free` on are fully constrained at all times.
 #[derive(Clone, Debug, Default)]

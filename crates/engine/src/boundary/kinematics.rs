@@ -6,7 +6,7 @@ use fem_model::{LoadCurve, Motion};
 use nalgebra::Vector3;
 
 use super::dirichlet::DirichletConditions;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 impl DirichletConditions {
     /// Overwrites the constrained entries with velocities (m/s) and accelerations (m/s²) of the prescribed motions at a time, s. At a

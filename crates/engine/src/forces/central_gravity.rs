@@ -8,10 +8,10 @@ use fem_model::{Body, CentralGravity};
 use nalgebra::Vector3;
 
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::vector::triple;
 use fem_model::element::shares::{load_shares, lumped_mass_shares};
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "central_gravity";

@@ -17,10 +17,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::energy::Energy;
 use super::points::Points;
 use super::volume_change::{change, cofactor, cross};
-use crate::numbering::Numbering;
-use crate::solvers::Ldlt;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
+use fem_solvers::Ldlt;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Relative residual of the pressures that displacements cause.
 const ROUNDING: f64 = 1e-14;

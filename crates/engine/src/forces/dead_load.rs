@@ -4,10 +4,10 @@ use fem_model::{Body, LoadCurve};
 use nalgebra::Vector3;
 
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::vector::{dot3, triple};
 use fem_model::element::shares::{face_shares, load_shares, lumped_mass_shares};
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "dead_load";

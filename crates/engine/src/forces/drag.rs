@@ -7,9 +7,9 @@ use fem_model::simulation::Shape;
 use fem_model::{Anchor, Body, EdgeStiffness, Interaction, Law, NeoHookean};
 
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::number::is_positive;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "drag";

@@ -11,9 +11,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::points::Points;
 use super::{AddBlock, Energy, HessianKind, InElements, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::number::is_positive;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "fibres";

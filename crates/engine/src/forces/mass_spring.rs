@@ -10,8 +10,8 @@ use fem_model::{Body, EdgeStiffness, Law, Spring};
 
 use super::Potential;
 use super::springs::{Source, Springs};
-use crate::numbering::Numbering;
-use fem_elements::Real;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "mass_spring";

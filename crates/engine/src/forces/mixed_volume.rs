@@ -6,8 +6,8 @@ use nalgebra::Matrix3;
 use super::corner_pressures::CornerPressures;
 use super::volume_change::{change, cofactor, contracted, of_matrix, projected, second_derivative};
 use super::{AddBlock, Energy, HessianKind, InElements, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "mixed_volume";

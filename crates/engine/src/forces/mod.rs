@@ -22,12 +22,12 @@ mod volume_change;
 use fem_model::simulation::History;
 use fem_model::{Body, Timer};
 
-use crate::numbering::Numbering;
 pub(crate) use corner_pressures::CornerPressures;
 use drag::DragSprings;
 pub use energy::Energy;
-use fem_elements::Real;
 use fem_elements::sparse::Pattern;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 pub use hessian_kind::HessianKind;
 pub use potential::{AddBlock, Barrier, Damped, Follower, InElements, Lagged, Moment, Potential, Remembering};
 

@@ -3,9 +3,9 @@
 use fem_model::BodyMesh;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::tensor::inverse;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// The quadrature points of all elements, in the order of the mesh, with the engine's numbers of the nodes.
 pub struct Points {

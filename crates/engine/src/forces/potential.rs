@@ -7,8 +7,8 @@ use nalgebra::Matrix3;
 use super::corner_pressures::CornerPressures;
 use super::spring::Spring;
 use super::{Energy, HessianKind};
-use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
+use fem_solvers::Real;
 
 /// Takes a block of a matrix of all nodes, given its row and its column. Blocks of the same place add up.
 pub type AddBlock<'a, T> = dyn FnMut(usize, usize, Block<T, 3>) + 'a;
@@ -19,7 +19,7 @@ pub type AddBlock<'a, T> = dyn FnMut(usize, usize, Block<T, 3>) + 'a;
 /// time at most, or if it says that the potential has no such facet: [`InElements`], [`Remembering`], [`Barrier`], [`Lagged`], [`Damped`],
 /// [`Follower`].
 ///
-/// Nodes have the engine's numbers ([`Numbering`](crate::numbering::Numbering)). `u` are the displacements of all nodes, m.
+/// Nodes have the engine's numbers ([`Numbering`](fem_solvers::numbering::Numbering)). `u` are the displacements of all nodes, m.
 pub trait Potential<T: Real>: Send + Sync {
     /// Key in the statistics.
     fn name(&self) -> &'static str;

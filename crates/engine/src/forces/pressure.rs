@@ -9,9 +9,9 @@ use std::collections::HashSet;
 use fem_model::{Body, LoadCurve};
 
 use super::{AddBlock, Energy, Follower, HessianKind, Moment, Potential};
-use crate::numbering::Numbering;
 use edges::Edges;
-use fem_elements::Real;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 use quadratic_triangles::QuadraticTriangles;
 use triangles::Triangles;
 

@@ -3,10 +3,10 @@
 use fem_model::{Body, DampingForm};
 
 use crate::forces::{Energy, HessianKind};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::triple;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// A spring between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]

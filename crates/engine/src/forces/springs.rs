@@ -6,10 +6,10 @@ use fem_model::Body;
 use super::potential::add_block;
 pub use super::spring::Spring;
 use super::{AddBlock, Damped, Energy, HessianKind, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::number::is_positive;
 use fem_elements::sparse::{Block, Pattern};
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "springs";

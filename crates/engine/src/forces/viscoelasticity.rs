@@ -12,11 +12,11 @@ use nalgebra::Matrix3;
 
 use super::points::Points;
 use super::{AddBlock, Energy, HessianKind, InElements, Moment, Potential, Remembering};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::materials::{AnyLaw, Law, cauchy_stress};
 use fem_elements::tensor::{Tensor, Tensor4, inverse, symmetric_eigen};
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "viscosity";

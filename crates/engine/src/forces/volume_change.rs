@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use fem_elements::Real;
 use fem_elements::sparse::Block;
 use fem_elements::tensor::raised;
+use fem_solvers::Real;
 
 /// J − 1 of a displacement gradient, without the loss of digits near rest.
 pub fn change(G: &Matrix3<f64>) -> f64 {

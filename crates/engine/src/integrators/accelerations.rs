@@ -7,8 +7,8 @@ use super::prescribed_motion::PrescribedMotion;
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, dot};
+use fem_solvers::Real;
 
 /// Accelerations, with the vectors that they need.
 ///

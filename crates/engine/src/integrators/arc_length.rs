@@ -12,11 +12,11 @@ use crate::forces::{HessianKind, Moment};
 use crate::model::system::System;
 use crate::newton::NewtonLimits;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Workspace};
-use crate::solvers::Solver;
-use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, dot, max_norm, norm};
+use fem_solvers::Real;
+use fem_solvers::Solver;
 
 /// Largest number of iterations of a step, and the number with which the arc length is kept.
 const ITERATIONS: (usize, usize) = (16, 4);

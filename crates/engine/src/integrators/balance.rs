@@ -5,8 +5,8 @@ use fem_model::simulation::Cause;
 
 use crate::forces::Moment;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, max_norm, sum_of_sizes};
+use fem_solvers::Real;
 
 /// Largest sum of the sizes of unbalanced forces, as a part of loads or reactions.
 const UNBALANCED: f64 = 1e-3;

@@ -7,9 +7,9 @@ use super::MassInverse;
 use crate::forces::Moment;
 use crate::model::damping::DampingRates;
 use crate::model::system::System;
-use crate::solvers::lanczos::{irregular, largest_eigenvalue};
-use fem_elements::Real;
 use fem_elements::vector::dot;
+use fem_solvers::Real;
+use fem_solvers::lanczos::{irregular, largest_eigenvalue};
 
 /// Relative change of an eigenvalue at which Lanczos's method ends, and its largest number of iterations.
 const ACCURACY: (f64, usize) = (1e-5, 96);

@@ -6,8 +6,8 @@ use super::Convergence;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential};
 use crate::newton::{Newton, Start};
-use fem_elements::Real;
 use fem_elements::vector::{max_norm, triple};
+use fem_solvers::Real;
 
 /// Largest number of evaluations in a step.
 const MOST: usize = 100;

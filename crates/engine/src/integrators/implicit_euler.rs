@@ -11,9 +11,9 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia};
 use crate::newton::{LastEvaluation, Newton};
-use crate::solvers::Solver;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
+use fem_solvers::Real;
+use fem_solvers::Solver;
 
 /// Implicit Euler as the minimum of the incremental potential, found by [`Newton`]'s method.
 pub struct ImplicitEuler<T: Real> {

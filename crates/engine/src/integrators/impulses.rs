@@ -13,9 +13,9 @@ use nalgebra::Vector3;
 use crate::forces::contact::planes::{Near, Planes};
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::history::put;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// Distance from a plane at which a node rests, in lengths of the body and in rounding errors of its displacement.
 const SKIN: f64 = 1e-9;

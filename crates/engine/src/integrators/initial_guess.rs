@@ -6,8 +6,8 @@ use super::followers::Followers;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia};
 use crate::newton::{Convergence, Newton, Start};
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// A step in need of an initial guess.
 pub struct InitialGuess<'a, T: Real> {

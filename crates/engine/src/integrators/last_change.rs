@@ -1,8 +1,8 @@
 //! The change of velocity in the last step, m/s: the initial guess of the next step assumes the same one.
 
 use crate::model::state::State;
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// The increment, m, if velocities change as in the last step; `inertial` is that without a change.
 pub fn extrapolate<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: f64) {

@@ -11,11 +11,11 @@ use crate::forces::{HessianKind, Moment};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Inertia, Workspace};
-use crate::solvers::Solver;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::sparse::Block;
 use fem_elements::vector::axpy;
+use fem_solvers::Real;
+use fem_solvers::Solver;
 
 /// Linearly implicit Euler with its solver and vectors.
 pub struct LinearlyImplicitEuler<T: Real> {

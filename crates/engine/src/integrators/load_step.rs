@@ -11,8 +11,8 @@ use crate::forces::Moment;
 use crate::model::system::System;
 use crate::newton::Newton;
 use crate::newton::incremental_potential::{Increment, Inertia};
-use fem_elements::Real;
 use fem_elements::vector::axpy;
+use fem_solvers::Real;
 
 /// Newton's method for load steps, with its vectors.
 pub struct LoadStep<T: Real> {

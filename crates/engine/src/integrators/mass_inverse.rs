@@ -2,9 +2,9 @@
 
 use crate::model::mass::Mass;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, dot, norm, subtract_from, xpby};
 use fem_model::simulation::{Breakdown, Cause};
+use fem_solvers::Real;
 
 /// Division by a lumped mass; conjugate gradients with the diagonal as preconditioner for a consistent one. For tetrahedra the
 /// spectrum of D⁻¹ M lies in [½, 5/2] on any mesh, Wathen, Realistic Eigenvalue Bounds for the Galerkin Mass Matrix (1987): some

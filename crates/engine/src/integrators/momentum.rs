@@ -1,8 +1,8 @@
 //! The last digits of a free body's momentum.
 
 use crate::newton::incremental_potential::IncrementalPotential;
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// Corrects the mean of an increment where the body is unconstrained and the sum of its external forces is known.
 ///

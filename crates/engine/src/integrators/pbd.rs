@@ -7,7 +7,7 @@ use super::relaxation::Relaxed;
 use crate::forces::contact::planes::Planes;
 use crate::forces::springs::Spring;
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// PBD: each sweep brings the volume of every element (the area of a triangle) and the length of every edge nearer to that at rest. The
 /// moduli of the material have no effect: the stiffness depends on the time step and the number of sweeps.

@@ -3,7 +3,7 @@
 
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// Largest change of displacements and velocities, in units of the machine epsilon, that counts as rounding error and not as a jump.
 const ROUNDING: f64 = 64.0;

@@ -15,10 +15,10 @@ use crate::forces::{Energy, HessianKind, Moment};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Inertia, Workspace};
-use crate::solvers::Solver;
-use fem_elements::Real;
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, dot, max_norm};
+use fem_solvers::Real;
+use fem_solvers::Solver;
 
 /// Sufficient decrease, Armijo (1966); part of the energy's terms that is rounding error, in units of the machine epsilon; and the
 /// smallest step length that is tried.

@@ -10,8 +10,8 @@ use fem_model::simulation::Cause;
 use crate::forces::Moment;
 use crate::model::system::System;
 use crate::newton::incremental_potential::Inertia;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, max_norm, sum_of_sizes};
+use fem_solvers::Real;
 
 /// The term on the mass, and where it begins.
 pub struct Proximal<T> {

@@ -5,8 +5,8 @@ use fem_model::simulation::{Cause, Counters};
 use super::{Accelerations, Convergence, Integrator, Memoryless, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::axpy;
+use fem_solvers::Real;
 
 /// The classical method with its vectors.
 pub struct Rk4<T: Real> {

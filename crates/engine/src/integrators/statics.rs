@@ -12,11 +12,11 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Workspace};
 use crate::newton::{Newton, NewtonLimits};
-use crate::solvers::Solver;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, max_norm, norm};
+use fem_solvers::Real;
+use fem_solvers::Solver;
 
 /// Load stepping with its solver and vectors.
 pub struct Statics<T: Real> {

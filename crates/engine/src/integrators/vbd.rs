@@ -6,7 +6,7 @@ use super::descent::Descent;
 use super::relaxation::Relaxed;
 use crate::forces::contact::planes::Planes;
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// VBD: each sweep minimises the incremental potential of implicit Euler over the displacement of each node in turn, by one step of
 /// Newton's method. Sweeps converge to implicit Euler. Before that the forces between nodes are not equal and opposite, so that a step

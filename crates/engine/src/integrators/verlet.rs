@@ -6,9 +6,9 @@ use fem_model::simulation::{Cause, Counters, History};
 use super::{Accelerations, Convergence, Integrator, Memory, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::vector::axpy;
+use fem_solvers::Real;
 
 /// Velocity Verlet with its vectors.
 pub struct Verlet<T: Real> {

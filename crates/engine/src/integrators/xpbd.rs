@@ -8,7 +8,7 @@ use super::relaxation::Relaxed;
 use crate::forces::contact::planes::Planes;
 use crate::forces::springs::Spring;
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// XPBD: each sweep corrects every element and every spring once.
 ///

@@ -8,9 +8,9 @@ use fem_model::{Damping, DampingForm, Timer};
 use super::state::State;
 use super::system::{INTERNAL, System};
 use crate::forces::{Damped, HessianKind};
-use fem_elements::Real;
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, dot, set_zero};
+use fem_solvers::Real;
 
 /// Part of the minimum of det F that displacements must keep where damping takes its matrix.
 const KEPT: f64 = 0.5;

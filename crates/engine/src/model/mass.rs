@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use fem_model::Body;
 
-use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_elements::threads::{join, over_parts};
 use fem_elements::vector::dot3;
+use fem_solvers::Real;
 
 /// From this many rows on several threads share the rows of a product, so many at a time.
 const ROWS_FOR_THREADS: usize = 3000;

@@ -2,8 +2,8 @@
 
 use super::system::System;
 use crate::forces::{Energy, Moment};
-use fem_elements::Real;
 use fem_elements::vector::sum_of_sizes;
+use fem_solvers::Real;
 
 impl<T: Real> System<T> {
     /// Potential energy without that of obstacles, and its gradient (N).

@@ -7,8 +7,8 @@ use fem_model::simulation::Reaction;
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{scale, set_zero, subtract_from, triple};
+use fem_solvers::Real;
 
 /// One for each Dirichlet condition, zero if its nodes have been released. The acceleration is the mean of the last step, which began at
 /// `before`, as does the damping matrix.

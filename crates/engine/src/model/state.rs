@@ -1,7 +1,7 @@
 //! The state of a body: everything that changes in a run.
 
-use fem_elements::Real;
 use fem_elements::vector::max_norm;
+use fem_solvers::Real;
 
 /// Displacements and velocities of all nodes, in the engine's numbering.
 ///

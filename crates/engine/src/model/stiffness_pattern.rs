@@ -5,11 +5,11 @@ use std::sync::Arc;
 use fem_model::{Body, with_elements};
 
 use super::system::{OwnForces, System};
-use crate::numbering::Ordering;
-use crate::solvers::SolverChoice;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::sparse::Pattern;
+use fem_solvers::Real;
+use fem_solvers::SolverChoice;
+use fem_solvers::numbering::Ordering;
 
 impl<T: Real> System<T> {
     /// Builds the parts that the scene names, with rows and blocks in the form of the solver.

@@ -13,12 +13,12 @@ use super::mass::{Mass, element_masses};
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
 use crate::forces::drag::{self, DragSprings};
 use crate::forces::{Energy, Forces, HessianKind, Moment, Potential, mass_spring};
-use crate::numbering::{Numbering, Ordering};
 use crate::profile::Profile;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::triple;
+use fem_solvers::Real;
+use fem_solvers::numbering::{Numbering, Ordering};
 
 /// A body in the engine's numbering: free nodes first, fully constrained ones last.
 pub struct System<T: Real> {

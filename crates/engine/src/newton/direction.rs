@@ -1,8 +1,8 @@
 //! The direction of an iteration: a solve with the Hessian, or with a kept factor and the pairs of limited-memory BFGS.
 
 use super::{Iterate, Newton};
-use fem_elements::Real;
 use fem_elements::vector::dot;
+use fem_solvers::Real;
 
 impl<T: Real> Newton<T> {
     /// Solves for the direction, and returns the directional derivative; it is negative in a descent direction and NaN where the solve

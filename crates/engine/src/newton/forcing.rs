@@ -1,8 +1,8 @@
 //! Forcing terms: the relative residual of an iterative solver's direction, and the condition for a new assembly of its matrix.
 
 use super::{Factor, Iterate, Newton};
-use fem_elements::Real;
 use fem_model::simulation::Breakdown;
+use fem_solvers::Real;
 
 /// Largest relative residual of a direction.
 const LARGEST: f64 = 0.05;

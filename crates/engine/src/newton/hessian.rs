@@ -7,8 +7,8 @@ use super::incremental_potential::IncrementalPotential;
 use super::{Factor, Newton};
 use crate::forces::HessianKind;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::max_norm;
+use fem_solvers::Real;
 
 /// Change of 1/τ² up to which a factor is kept: with another one, an update would be too short or too long by about that.
 const SAME: f64 = 1.5;

@@ -3,8 +3,8 @@
 use crate::forces::Moment;
 use crate::model::damping::DampingRates;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, scale};
+use fem_solvers::Real;
 
 /// The start and the end of a step.
 #[derive(Clone, Copy)]

@@ -4,8 +4,8 @@ pub use super::increment::{Increment, Inertia, StepEnd};
 
 use crate::forces::Energy;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, clear, dot, subtract_from, triple};
+use fem_solvers::Real;
 
 /// E(w) = ‖w − ŵ‖²_M / (2 τ²) + c (w − w̌)ᵀ C (w − w̌) / 2 + V(u₀ + w) + W(u₀ + s w) κ/s, C = α M + β K(u_d) + D(u_d), for the displacement
 /// increment w: its minimum solves M (w − ŵ)/τ² + c C (w − w̌) = f(u₀ + w) + κ f_o(u₀ + s w). With τ = dt, c = 1/dt, w̌ = 0 and s = κ = 1

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 
 use fem_model::simulation::History;
 
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::vector::{axpy, dot};
+use fem_solvers::Real;
 
 /// Number of pairs of steps and gradient changes that are kept.
 const DEPTH: usize = 6;

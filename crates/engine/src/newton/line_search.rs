@@ -4,8 +4,8 @@ use fem_model::simulation::Counters;
 
 use super::{Iterate, Newton};
 use crate::newton::incremental_potential::{IncrementalPotential, Workspace};
-use fem_elements::Real;
 use fem_elements::vector::{axpy, dot, max_norm};
+use fem_solvers::Real;
 
 /// Part of the energy's terms that is rounding error, in units of the machine epsilon.
 const ROUND_OFF: f64 = 32.0;

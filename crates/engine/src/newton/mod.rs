@@ -22,11 +22,11 @@ use fem_model::simulation::{Cause, Counters, History};
 
 use crate::forces::{Energy, HessianKind};
 use crate::model::system::System;
-use crate::solvers::Solver;
-use fem_elements::Real;
 use fem_elements::history::{put, put_flag, put_option, take, take_flag, take_option};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{max_norm, norm};
+use fem_solvers::Real;
+use fem_solvers::Solver;
 pub use incremental_potential::LastEvaluation;
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;

@@ -11,11 +11,11 @@ use super::incremental_potential::IncrementalPotential;
 use super::{Convergence, Iterate, Newton};
 use crate::forces::{CornerPressures, Energy, HessianKind};
 use crate::model::system::System;
-use crate::solvers::Ldlt;
-use fem_elements::Real;
 use fem_elements::history::{put, put_flag, take, take_flag};
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::{dot, max_norm, norm};
+use fem_solvers::Ldlt;
+use fem_solvers::Real;
 
 /// Largest volume that may be left at a corner, relative to its own: rounding error of the displacements times a few.
 const LEFT: f64 = 1e-12;

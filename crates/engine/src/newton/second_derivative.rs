@@ -3,10 +3,10 @@
 use super::incremental_potential::{IncrementalPotential, StepEnd, Workspace};
 use crate::forces::{HessianKind, Potential};
 use crate::model::damping::DampingRates;
-use crate::solvers::Assembly;
-use fem_elements::Real;
 use fem_elements::sparse::Block;
 use fem_elements::vector::clear;
+use fem_solvers::Assembly;
+use fem_solvers::Real;
 
 impl<T: Real> IncrementalPotential<'_, T> {
     /// ∂²E/∂w², N/m.

@@ -8,8 +8,8 @@ use fem_model::simulation::{Cause, Failure, History};
 
 use super::Simulator;
 use crate::integrators::Convergence;
-use fem_elements::Real;
 use fem_elements::history::{put_option, take, take_option};
+use fem_solvers::Real;
 
 /// Part of the step that the last estimate would allow.
 const SAFETY: f64 = 0.9;

@@ -11,7 +11,7 @@ use super::Simulator;
 use crate::forces::Moment;
 use crate::integrators::critical_time_step;
 use crate::model::system::OwnForces;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// A number type that the engine simulates in: `f32` or `f64`. Its functions are the bodies of [`Simulator`]'s of the same names.
 pub trait Compiled: Real {

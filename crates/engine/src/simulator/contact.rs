@@ -13,9 +13,9 @@ use crate::forces::contact::start::{Obstacles, Stand};
 use crate::integrators::{Convergence, Impulses, PlaneContacts};
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// Relative change of lagged forces at which they no longer change, and the one up to which they may change by rounding error.
 const CONVERGED: f64 = 1e-6;

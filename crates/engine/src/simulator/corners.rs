@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::threads::reduce;
+use fem_solvers::Real;
 
 /// The quadratic elements of a body whose law does not allow inversion; none in other bodies.
 pub(super) struct Corners {

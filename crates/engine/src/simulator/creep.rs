@@ -6,9 +6,9 @@ use crate::forces::contact::barrier::Barrier;
 use crate::forces::contact::friction::{norm, slope_over_y, tangential};
 use crate::forces::contact::planes::Planes;
 use crate::model::state::State;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// Part of the steps with friction from which creep is told.
 const MOST: f64 = 0.5;

@@ -3,7 +3,7 @@
 use fem_model::{Body, Integrator as IntegratorKind, Method, Projection};
 
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// The laws that the device knows.
 pub(crate) const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];

@@ -4,11 +4,11 @@ use fem_gpu::{Law, Tetrahedra};
 
 use crate::integrators::shape;
 use crate::model::system::System;
-use crate::solvers::DeviceElements;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::Number;
 use fem_elements::sparse::{Block, Pattern};
+use fem_solvers::DeviceElements;
+use fem_solvers::Real;
 
 /// A law and its parameters (Pa), if the device knows it.
 pub(crate) fn law<L: Number>(law: &AnyLaw<L>) -> Option<(Law, [f64; 2])> {

@@ -9,10 +9,9 @@ use fem_model::simulation::{Breakdown, Cause};
 use crate::forces::{Energy, HessianKind, Moment};
 use crate::integrators::MassInverse;
 use crate::model::system;
-use crate::solvers::{self, SolverChoice};
-use fem_elements::materials::AnyLaw;
+use fem_elements::materials::{AnyLaw, Law};
 use fem_elements::sparse::Block;
-use fem_elements::tensor::{Tensor, Tensor4};
+use fem_solvers::SolverChoice;
 
 /// A body in double precision.
 pub type System = system::System<f64>;
@@ -68,27 +67,27 @@ pub fn solve_mass(
     inverse.solve(system, f, a)
 }
 
-/// The stress derivative of a law at a displacement gradient.
-pub fn stress_derivative(law: &AnyLaw<f64>, G: &Tensor<f64>) -> Tensor4<f64> {
-    <f64 as fem_elements::Real>::law(law).derivative(G)
+/// A law by reference, whose functions are compiled.
+pub fn law(law: &AnyLaw<f64>) -> &dyn Law<f64> {
+    <f64 as fem_elements::Real>::law(law)
 }
 
 /// A solver for the matrices of a body.
-pub struct Solver(solvers::Solver<f64>);
+pub struct Solver(fem_solvers::Solver<f64>);
 
 impl Solver {
     /// Analyses the pattern of the body's matrices.
     pub fn new(choice: SolverChoice, system: &System) -> Self {
         let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-        Self(solvers::Solver::new(choice, &system.pattern, &rest))
+        Self(fem_solvers::Solver::new(choice, &system.pattern, &rest))
     }
 
-    /// [`Solver::prepare`](solvers::Solver::prepare)
+    /// [`Solver::prepare`](fem_solvers::Solver::prepare)
     pub fn prepare(&mut self, values: &[Block<f64, 3>]) -> Result<(), Breakdown> {
         self.0.prepare(values)
     }
 
-    /// [`Solver::solve`](solvers::Solver::solve)
+    /// [`Solver::solve`](fem_solvers::Solver::solve)
     pub fn solve(
         &mut self,
         values: &[Block<f64, 3>],
@@ -99,7 +98,7 @@ impl Solver {
         self.0.solve(values, b, x, tolerance)
     }
 
-    /// [`Solver::apply`](solvers::Solver::apply)
+    /// [`Solver::apply`](fem_solvers::Solver::apply)
     pub fn apply(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
         self.0.apply(r, z);
     }

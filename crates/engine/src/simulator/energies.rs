@@ -3,8 +3,8 @@
 use crate::forces::{Moment, Potential};
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, dot};
+use fem_solvers::Real;
 
 /// Bounds of the motion of a state.
 #[derive(Clone, Copy, Debug)]

@@ -10,8 +10,8 @@ use crate::newton::{Newton, NewtonLimits};
 use crate::simulator::device_assembly;
 #[cfg(feature = "gpu")]
 use crate::simulator::device_elements;
-use crate::solvers::{Preconditioner, Solver, SolverChoice, factor_fits};
-use fem_elements::Real;
+use fem_solvers::Real;
+use fem_solvers::{Preconditioner, Solver, SolverChoice, factor_fits};
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
 const SMALLEST_RESIDUAL: f64 = 8.0;

@@ -16,9 +16,9 @@ use crate::forces::Moment;
 use crate::integrators::Integrator;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::history::{put_option, take, take_option};
 use fem_elements::vector::dot;
+use fem_solvers::Real;
 
 /// Largest gain of energy, as a part of the energy turned over.
 pub(super) const LARGEST_GAIN: f64 = 0.05;

@@ -4,7 +4,7 @@ use fem_model::simulation::Part;
 
 use super::Simulator;
 use crate::forces::drag;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// Bytes, and uses with their seconds.
 type Cost = (usize, (usize, f64));

@@ -7,9 +7,9 @@ use fem_model::{
 
 use crate::forces::{self, Potential, contact};
 use crate::simulator::device_assembly;
-use crate::solvers::SolverChoice;
-use fem_elements::Real;
 use fem_elements::plasticity;
+use fem_solvers::Real;
+use fem_solvers::SolverChoice;
 
 /// Bytes, uses and seconds, which only a simulation knows.
 const NO_COST: (usize, f64) = (0, 0.0);

@@ -4,9 +4,9 @@ use fem_model::{Integrator, Material, Method, Precision, Refusal};
 
 use super::integrator::SMALLEST_TOLERANCE;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::is_positive;
+use fem_solvers::Real;
 
 /// Largest strain from rounding errors of positions.
 const STRAIN: f64 = 1e-2;

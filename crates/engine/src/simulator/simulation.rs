@@ -17,7 +17,7 @@ use crate::integrators::LastStage;
 use crate::model::reactions::{reactions, reactions_at};
 use crate::model::state::State;
 use crate::pick;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 impl<T: Compiled> Simulation for Simulator<T> {
     fn name(&self) -> &str {

@@ -4,7 +4,7 @@ use fem_model::simulation::Failure;
 
 use super::Simulator;
 use crate::integrators::Convergence;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// From this many nodes on several threads share the work of a step.
 const NODES_FOR_THREADS: usize = 2000;

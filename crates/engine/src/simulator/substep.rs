@@ -9,7 +9,7 @@ use super::ledger::{Ledger, Step};
 use super::work::LastForces;
 use crate::integrators::Convergence;
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// Smallest part of a substep with inverted elements that is tried.
 const SMALLEST: f64 = 1.0 / 64.0;

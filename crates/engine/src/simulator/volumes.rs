@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::Simulator;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 impl<T: Real> Simulator<T> {
     pub(super) fn min_J_now(&self) -> (f64, usize) {

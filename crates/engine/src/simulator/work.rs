@@ -14,11 +14,11 @@ use crate::forces::{Moment, Potential};
 use crate::integrators::LastEvaluation;
 use crate::model::reactions::{End, Unbalanced, write_between};
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::history::put;
 use fem_elements::vector::{dot, scale, set_zero, triple};
 use fem_model::Integrator as IntegratorKind;
 use fem_model::simulation::History;
+use fem_solvers::Real;
 use nalgebra::Vector3;
 
 /// Energies supplied and dissipated, J.

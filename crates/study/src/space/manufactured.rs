@@ -117,7 +117,7 @@ impl Exact {
 
     /// −Div P, N/m³.
     fn body_force(self, law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
-        let H = double::stress_derivative(law, &self.gradient(X));
+        let H = double::law(law).derivative(&self.gradient(X));
         let mut force = [0.0; 3];
         for (i, force) in force.iter_mut().enumerate() {
             for j in 0..3 {
@@ -236,7 +236,7 @@ mod tests {
             let law = AnyLaw::<f64>::new(&fixed_body(model, element, 1).unwrap().material).unwrap();
             let exact = Exact { dimensions: element.dimension };
             let X = Vector3::new(0.31, 0.62, 0.27);
-            let stress = |X: &Vector3<f64>| <f64 as fem_engine::Real>::law(&law).stress(&exact.gradient(X));
+            let stress = |X: &Vector3<f64>| double::law(&law).stress(&exact.gradient(X));
             let h = 1e-5;
             for (i, force) in exact.body_force(&law, &X).into_iter().enumerate() {
                 let slope = |j: usize| {
@@ -275,7 +275,7 @@ mod tests {
     /// The error of the stresses of a linear law in its energy norm, as a part of the norm of the stresses.
     fn true_error(solved: &Solved, exact: Exact) -> f64 {
         let law = AnyLaw::<f64>::new(&solved.material).unwrap();
-        let energy = |G: &Tensor<f64>| <f64 as fem_engine::Real>::law(&law).energy(G);
+        let energy = |G: &Tensor<f64>| double::law(&law).energy(G);
         let (mesh, points) = (&solved.mesh, points(&solved.mesh));
         let [mut error, mut size] = [0.0; 2];
         for (element, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {

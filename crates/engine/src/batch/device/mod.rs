@@ -12,10 +12,10 @@ use nalgebra::Vector3;
 
 use super::{EnvironmentFailure, EnvironmentState, Environments};
 use crate::model::system::System;
-use crate::numbering::Numbering;
 use crate::simulator::{Compiled, Simulator};
-use crate::solvers::open_device;
 use fem_elements::materials::AnyLaw;
+use fem_solvers::numbering::Numbering;
+use fem_solvers::open_device;
 
 /// Builds the environments of a body on the device in a precision.
 pub(super) fn build(

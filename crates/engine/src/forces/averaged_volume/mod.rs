@@ -24,10 +24,10 @@ use super::volume_change::{
     add, change, cofactor, contracted, cross, of_matrix, projected_second_derivative, second_derivative,
 };
 use super::{AddBlock, Energy, HessianKind, InElements, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::sparse::{Block, Pattern};
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 use patches::patches;
 
 /// Key in the statistics.

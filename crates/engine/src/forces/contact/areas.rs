@@ -10,9 +10,9 @@ use fem_model::element::Element;
 use fem_model::element::shares::face_shares;
 use nalgebra::Vector3;
 
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Least area of a node, in areas of the faces around it: a node whose faces look away from the plane must not pass through it.
 const LEAST: f64 = 0.01;

@@ -7,9 +7,9 @@ use fem_model::{Body, Material};
 
 use super::areas::Areas;
 use crate::forces::mass_spring;
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// The barrier of a body.
 #[derive(Clone, Debug)]

@@ -10,9 +10,9 @@ use super::barrier::Barrier;
 use super::planes::Planes;
 use super::start::Obstacles;
 use crate::forces::{self, AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::numbering::Numbering;
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// Key in the statistics.
 pub const NAME: &str = "friction";

@@ -10,10 +10,10 @@ pub mod start;
 use fem_model::{Body, ContactTreatment};
 
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::numbering::Numbering;
 use barrier::Barrier;
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 use planes::Planes;
 use start::Obstacles;
 

@@ -2,8 +2,8 @@
 
 use fem_model::{Body, ContactPlane};
 
-use crate::numbering::Numbering;
-use fem_elements::Real;
+use fem_solvers::Real;
+use fem_solvers::numbering::Numbering;
 
 /// The obstacles of a body, with data for the distances of its nodes. Nodes have the engine's numbers.
 #[derive(Clone, Debug)]

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use super::barrier::Barrier;
 use super::planes::Planes;
 use crate::forces::{Moment, dead_load};
-use crate::numbering::Numbering;
+use fem_solvers::numbering::Numbering;
 
 /// Halvings of the interval of the distance: down to rounding errors.
 const HALVINGS: usize = 100;

@@ -6,8 +6,8 @@ use fem_model::{Body, BodyMesh, Elastic, Law, Material, Volumetric};
 use nalgebra::{DMatrix, Vector3};
 
 use super::CornerPressures;
-use crate::numbering::Numbering;
-use crate::solvers::Ldlt;
+use fem_solvers::Ldlt;
+use fem_solvers::numbering::Numbering;
 
 /// The pressures of a square or a cube of so many cells along an edge, with the numbering of its nodes: those at one side are fixed. Nodes within
 /// are moved by a part of a cell.

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Vector2, Vector3};
 
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// Edges with the body on their left.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,8 @@
 use fem_model::element::Element;
 use nalgebra::Vector3;
 
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// Distance of three points from the nearest sides, as a barycentric coordinate, and the part of the area of each of them.
 const RULE: [(f64, f64); 2] =

@@ -2,7 +2,7 @@
 //! position-based dynamics (2015), algorithm 1, as Chen et al. 2024, section 3.8, have it: x_k = ω_k (x̂_k − x_(k−2)) + x_(k−2), where x̂_k
 //! is the result of the sweep.
 
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// The last two iterates of a step, and the weight of the next.
 pub(super) struct Chebyshev<T> {

@@ -3,7 +3,7 @@
 use super::nodes::NodeBatches;
 use super::patches::{Group, Patches};
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// The elements of a material around the nodes.
 pub(super) fn group<T: Real>(system: &System<T>, material: usize, nodes: &NodeBatches<T>) -> Box<dyn Group<T>> {

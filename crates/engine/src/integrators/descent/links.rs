@@ -6,8 +6,8 @@ use super::sums::{Sums, UPPER};
 use crate::forces::HessianKind;
 use crate::forces::drag::DragSprings;
 use crate::forces::springs::Spring;
-use fem_elements::Real;
 use fem_elements::number::Number;
+use fem_solvers::Real;
 
 /// The springs of a body, with the places of their ends.
 pub(super) struct Links<T: Real> {

@@ -12,9 +12,9 @@ use super::solve::{Inertia, Steps, StepsOf, inverse_block};
 use super::sums::Sums;
 use crate::integrators::relaxation::{BATCHES_FOR_THREADS, CHUNK, PlaneContacts, Relaxation, StepOf, color_nodes};
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::number::Number;
 use fem_elements::threads::over_parts_of_two;
+use fem_solvers::Real;
 
 /// A body whose nodes descend one after the other.
 pub struct Descent<T: Real> {

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use fem_elements::Real;
 use fem_elements::number::Number;
+use fem_solvers::Real;
 
 /// Batches of nodes without a common element, colour after colour.
 pub(super) struct NodeBatches<T: Real> {

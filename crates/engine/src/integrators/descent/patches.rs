@@ -10,11 +10,11 @@ use super::sums::Sums;
 
 use crate::integrators::relaxation::{BATCHES_FOR_THREADS, CHUNK, cliques_of_nodes, shape};
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::materials::Law;
 use fem_elements::number::{Lanes, Number};
 use fem_elements::solids::LawWork;
 use fem_elements::threads::over_parts;
+use fem_solvers::Real;
 
 /// The elements of one material around all nodes.
 pub(super) struct Patches<T: Real, const E: usize> {

@@ -7,7 +7,7 @@ use super::rule::{Rule, Sweep};
 use crate::forces::springs::Spring;
 use crate::integrators::relaxation::{PlaneContacts, Relaxation, StepOf};
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// The constraints of a body.
 pub struct Constraints<T: Real> {

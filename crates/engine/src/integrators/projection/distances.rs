@@ -4,8 +4,8 @@ use super::rule::{Rule, Sweep};
 use crate::forces::HessianKind;
 use crate::forces::springs::Spring;
 use crate::integrators::relaxation::color_constraints;
-use fem_elements::Real;
 use fem_elements::vector::{dot3, triple};
+use fem_solvers::Real;
 
 /// Distance constraints in the order of their colours, each with its multiplier.
 pub(super) struct Distances<T> {

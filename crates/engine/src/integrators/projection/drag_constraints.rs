@@ -1,7 +1,7 @@
 //! Constraints of drag springs, `[drag]` and the user's interaction: a node to a point in space, with the compliance 1/k.
 
 use crate::forces::drag::DragSprings;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// The drag springs of a step.
 pub(super) struct DragConstraints<T> {

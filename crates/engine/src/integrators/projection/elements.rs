@@ -7,12 +7,12 @@ use super::kernel::CorrectionsOf;
 use super::rule::Sweep;
 use crate::integrators::relaxation::{BATCHES_FOR_THREADS, CHUNK, color_constraints, shape};
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::materials::Law;
 use fem_elements::number::{Lanes, Number};
 use fem_elements::solids::LawWork;
 use fem_elements::tensor::zero;
 use fem_elements::threads::over_parts_of_two;
+use fem_solvers::Real;
 
 /// The elements of one material, colour after colour.
 pub(super) struct Elements<T: Real, const N: usize> {

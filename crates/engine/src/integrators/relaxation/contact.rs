@@ -10,9 +10,9 @@ use fem_model::simulation::History;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::forces::contact::planes::Planes;
-use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::vector::max_norm;
+use fem_solvers::Real;
 
 /// Distance from a plane at which a node rests, in lengths of the body and in rounding errors of its displacement.
 const SKIN: f64 = 1e-9;

@@ -20,7 +20,7 @@ use super::{Convergence, Integrator, Memory};
 use crate::forces::contact::planes::Planes;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// Batches of one colour that a thread takes at a time.
 pub const CHUNK: usize = 16;

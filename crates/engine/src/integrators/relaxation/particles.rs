@@ -3,8 +3,8 @@
 use crate::forces::{Moment, dead_load};
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::triple;
+use fem_solvers::Real;
 
 /// Inverse masses of the nodes, and the start of the step.
 pub struct Particles<T> {

@@ -1,8 +1,8 @@
 //! The elements of a body as sweeps see them, one at a time: simplices at rest.
 
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::number::Number;
+use fem_solvers::Real;
 
 /// The shape of a simplex at rest.
 #[derive(Clone, Copy)]

@@ -10,8 +10,8 @@ use crate::integrators::{Convergence, momentum};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia, StepEnd};
-use fem_elements::Real;
 use fem_elements::vector::{axpy, max_norm, triple};
+use fem_solvers::Real;
 
 /// Part of the change before it that a change of the displacements of damping must stay below.
 const SLOW: f64 = 0.5;

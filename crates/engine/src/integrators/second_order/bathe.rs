@@ -17,7 +17,7 @@ use crate::forces::Moment;
 use crate::integrators::Convergence;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
+use fem_solvers::Real;
 
 /// Part of a step before its stage, γ.
 const STAGE: f64 = 2.0 - SQRT_2;

@@ -4,9 +4,9 @@ use super::SecondOrder;
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{axpy, max_norm, scale, triple};
 use fem_model::simulation::Cause;
+use fem_solvers::Real;
 
 impl<T: Real> SecondOrder<T> {
     /// Keeps the mean acceleration of the step for the estimate of the next one, without that of obstacles: impacts have no third

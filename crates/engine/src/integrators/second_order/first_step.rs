@@ -8,8 +8,8 @@ use crate::forces::Moment;
 use crate::integrators::Convergence;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::axpy;
+use fem_solvers::Real;
 
 impl<T: Real> SecondOrder<T> {
     /// Replaces the initial acceleration by the mean one over a step of implicit Euler, which is not taken. A part of dt M⁻¹ f would remain in

@@ -3,9 +3,9 @@
 use fem_model::simulation::History;
 
 use super::coefficients::Combination;
-use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
 use fem_elements::vector::axpy;
+use fem_solvers::Real;
 
 /// The acceleration of a method that keeps one, and the last increment of a multistep method.
 #[derive(Clone, Debug, Default)]

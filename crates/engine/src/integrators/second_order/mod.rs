@@ -25,10 +25,10 @@ use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::{LastEvaluation, Newton};
-use crate::solvers::Solver;
 use coefficients::Coefficients;
-use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
+use fem_solvers::Real;
+use fem_solvers::Solver;
 use history::Known;
 use start::Start;
 

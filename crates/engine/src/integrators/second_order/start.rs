@@ -7,8 +7,8 @@ use crate::forces::Moment;
 use crate::model::mass::Mass;
 use crate::model::state::State;
 use crate::model::system::System;
-use fem_elements::Real;
 use fem_elements::vector::{dot, max_norm, triple};
+use fem_solvers::Real;
 
 /// Part of the largest prescribed velocity from which a change of it is a jump.
 const JUMP: f64 = 1e-9;
