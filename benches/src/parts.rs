@@ -6,7 +6,7 @@ use std::time::Instant;
 use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
-use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
+use fem_engine::solvers::{Preconditioner, SolverChoice};
 use fem_output::quantile;
 use fem_study::machine::Machine;
 
@@ -100,8 +100,7 @@ fn linear(system: &System<f64>, name: SolverName, dt: f64) -> Result<(), End> {
     })?;
     system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
     system.mass.add_to(1.0 / (dt * dt), &system.pattern, &mut values);
-    let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-    let mut solver = Solver::<f64>::new(choice(name), &system.pattern, &rest);
+    let mut solver = system.solver(choice(name));
     let mut x = vec![[0.0; 3]; system.nodes()];
     time(&format!("preparation, {}", name.name()), count, || solver.prepare(&values).map_err(End::wrong))?;
     time("one application of it", count, || {

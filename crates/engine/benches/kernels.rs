@@ -12,7 +12,7 @@ use fem_engine::Real;
 use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
-use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
+use fem_engine::solvers::{Preconditioner, SolverChoice};
 use fem_scene::{Scene, body, parse};
 
 const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
@@ -78,8 +78,7 @@ fn solvers(criterion: &mut Criterion) {
             let u = bent(&system);
             system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
             system.mass.add_to(1e4, &system.pattern, &mut values);
-            let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-            let mut solver = Solver::<f64>::new(choice, &system.pattern, &rest);
+            let mut solver = system.solver(choice);
             let mut x = vec![[0.0; 3]; system.nodes()];
             group.throughput(Throughput::Elements(system.elements.count() as u64));
             group.bench_function(format!("preparation/{name}/{cells} cells"), |b| {

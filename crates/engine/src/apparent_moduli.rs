@@ -6,7 +6,6 @@
 //! an infinite body of the same springs.
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 use fem_model::{Body, DirichletCondition, ForceFields};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -14,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use crate::forces::{HessianKind, mass_spring};
 use crate::model::system::System;
 use fem_elements::vector::{axpy, dot};
-use fem_solvers::{Preconditioner, Solver, SolverChoice};
+use fem_solvers::{Preconditioner, SolverChoice};
 
 /// Number of nodes up to which one factor is cheaper than iterations for each strain.
 const DIRECT: usize = 20_000;
@@ -133,8 +132,7 @@ fn relaxed(system: &System<f64>, strains: &[[[f64; 3]; 3]]) -> Result<Vec<Vec<[f
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     system.add_stiffness(1.0, &undeformed, HessianKind::Exact, &mut values);
     system.dirichlet.eliminate(&system.pattern, &mut values);
-    let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-    let mut solver = Solver::new(choice(system.nodes()), &Arc::clone(&system.pattern), &rest);
+    let mut solver = system.solver(choice(system.nodes()));
     let failed = |cause: fem_model::simulation::Breakdown| format!("the nodes inside have no equilibrium: {cause}");
     solver.prepare(&values).map_err(failed)?;
     for u in &mut moved {

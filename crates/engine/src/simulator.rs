@@ -40,9 +40,8 @@ use crate::model::system::{OwnForces, System};
 use crate::skinning::Skinning;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::check_instructions;
-use fem_solvers::Real;
-use fem_solvers::SolverChoice;
 use fem_solvers::numbering::Numbering;
+use fem_solvers::{Real, SolverChoice};
 
 use adaptive::Control;
 use contact::Contacts;

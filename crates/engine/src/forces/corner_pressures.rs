@@ -18,9 +18,8 @@ use super::energy::Energy;
 use super::points::Points;
 use super::volume_change::{change, cofactor, cross};
 use fem_elements::materials::AnyLaw;
-use fem_solvers::Ldlt;
-use fem_solvers::Real;
 use fem_solvers::numbering::Numbering;
+use fem_solvers::{Ldlt, Real};
 
 /// Relative residual of the pressures that displacements cause.
 const ROUNDING: f64 = 1e-14;

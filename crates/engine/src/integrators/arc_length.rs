@@ -15,8 +15,7 @@ use crate::newton::incremental_potential::{Increment, IncrementalPotential, Work
 use fem_elements::history::{put, put_option, take, take_option};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, dot, max_norm, norm};
-use fem_solvers::Real;
-use fem_solvers::Solver;
+use fem_solvers::{Real, Solver};
 
 /// Largest number of iterations of a step, and the number with which the arc length is kept.
 const ITERATIONS: (usize, usize) = (16, 4);

@@ -12,8 +12,7 @@ use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia};
 use crate::newton::{LastEvaluation, Newton};
 use fem_elements::history::{put, take};
-use fem_solvers::Real;
-use fem_solvers::Solver;
+use fem_solvers::{Real, Solver};
 
 /// Implicit Euler as the minimum of the incremental potential, found by [`Newton`]'s method.
 pub struct ImplicitEuler<T: Real> {

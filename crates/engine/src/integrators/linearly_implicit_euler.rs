@@ -14,8 +14,7 @@ use crate::newton::incremental_potential::{Increment, IncrementalPotential, Iner
 use fem_elements::history::{put, take};
 use fem_elements::sparse::Block;
 use fem_elements::vector::axpy;
-use fem_solvers::Real;
-use fem_solvers::Solver;
+use fem_solvers::{Real, Solver};
 
 /// Linearly implicit Euler with its solver and vectors.
 pub struct LinearlyImplicitEuler<T: Real> {

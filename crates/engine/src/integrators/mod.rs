@@ -62,8 +62,7 @@ use crate::forces::contact::planes::Planes;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
-use fem_solvers::Real;
-use fem_solvers::Solver;
+use fem_solvers::{Real, Solver};
 
 /// The parts that an integrator may need.
 pub struct Parts<'a, T: Real> {

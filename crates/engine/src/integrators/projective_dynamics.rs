@@ -17,8 +17,7 @@ use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Inertia, Workspace};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, dot, max_norm};
-use fem_solvers::Real;
-use fem_solvers::Solver;
+use fem_solvers::{Real, Solver};
 
 /// Sufficient decrease, Armijo (1966); part of the energy's terms that is rounding error, in units of the machine epsilon; and the
 /// smallest step length that is tried.

@@ -15,8 +15,7 @@ use crate::newton::{Newton, NewtonLimits};
 use fem_elements::history::{put, take};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, max_norm, norm};
-use fem_solvers::Real;
-use fem_solvers::Solver;
+use fem_solvers::{Real, Solver};
 
 /// Load stepping with its solver and vectors.
 pub struct Statics<T: Real> {

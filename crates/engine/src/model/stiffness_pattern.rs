@@ -7,9 +7,8 @@ use fem_model::{Body, with_elements};
 use super::system::{OwnForces, System};
 use fem_elements::materials::AnyLaw;
 use fem_elements::sparse::Pattern;
-use fem_solvers::Real;
-use fem_solvers::SolverChoice;
 use fem_solvers::numbering::Ordering;
+use fem_solvers::{Real, Solver, SolverChoice};
 
 impl<T: Real> System<T> {
     /// Builds the parts that the scene names, with rows and blocks in the form of the solver.
@@ -51,5 +50,20 @@ impl<T: Real> System<T> {
     /// Returns true if the pattern of the stiffness matrix is known, or no node has a row in it.
     pub fn has_pattern(&self) -> bool {
         self.pattern.rows() == self.free()
+    }
+
+    /// A solver for the body's matrices.
+    pub fn solver(&self, choice: SolverChoice) -> Solver<T> {
+        Solver::new(choice, &self.pattern, &self.rest_of_rows())
+    }
+
+    /// The same for [directions](Solver::for_directions).
+    pub fn solver_for_directions(&self, choice: SolverChoice) -> Solver<T> {
+        Solver::for_directions(choice, &self.pattern, &self.rest_of_rows())
+    }
+
+    /// Undeformed positions of the nodes that have rows in matrices, m.
+    fn rest_of_rows(&self) -> Vec<[f64; 3]> {
+        self.rest[..self.free()].iter().map(|x| (*x).into()).collect()
     }
 }

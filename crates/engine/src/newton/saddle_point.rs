@@ -14,8 +14,7 @@ use crate::model::system::System;
 use fem_elements::history::{put, put_flag, take, take_flag};
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::{dot, max_norm, norm};
-use fem_solvers::Ldlt;
-use fem_solvers::Real;
+use fem_solvers::{Ldlt, Real};
 
 /// Largest volume that may be left at a corner, relative to its own: rounding error of the displacements times a few.
 const LEFT: f64 = 1e-12;

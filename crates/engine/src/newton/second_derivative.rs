@@ -5,8 +5,7 @@ use crate::forces::{HessianKind, Potential};
 use crate::model::damping::DampingRates;
 use fem_elements::sparse::Block;
 use fem_elements::vector::clear;
-use fem_solvers::Assembly;
-use fem_solvers::Real;
+use fem_solvers::{Assembly, Real};
 
 impl<T: Real> IncrementalPotential<'_, T> {
     /// ∂²E/∂w², N/m.

@@ -8,8 +8,7 @@ use fem_model::{
 use nalgebra::Vector3;
 
 use crate::forces::{Potential, dead_load, drag, springs};
-use fem_solvers::Real;
-use fem_solvers::unusable_device;
+use fem_solvers::{Real, unusable_device};
 
 /// Forces that methods know which move nodes one by one.
 const OF_NODES: [&str; 3] = [dead_load::NAME, springs::NAME, drag::NAME];

@@ -7,8 +7,7 @@ use crate::model::system::System;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::Number;
 use fem_elements::sparse::{Block, Pattern};
-use fem_solvers::DeviceElements;
-use fem_solvers::Real;
+use fem_solvers::{DeviceElements, Real};
 
 /// A law and its parameters (Pa), if the device knows it.
 pub(crate) fn law<L: Number>(law: &AnyLaw<L>) -> Option<(Law, [f64; 2])> {

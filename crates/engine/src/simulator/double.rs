@@ -4,7 +4,7 @@
 //! are compiled here, once.
 
 use fem_model::Body;
-use fem_model::simulation::{Breakdown, Cause};
+use fem_model::simulation::Cause;
 
 use crate::forces::{Energy, HessianKind, Moment};
 use crate::integrators::MassInverse;
@@ -70,36 +70,4 @@ pub fn solve_mass(
 /// A law by reference, whose functions are compiled.
 pub fn law(law: &AnyLaw<f64>) -> &dyn Law<f64> {
     <f64 as fem_elements::Real>::law(law)
-}
-
-/// A solver for the matrices of a body.
-pub struct Solver(fem_solvers::Solver<f64>);
-
-impl Solver {
-    /// Analyses the pattern of the body's matrices.
-    pub fn new(choice: SolverChoice, system: &System) -> Self {
-        let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-        Self(fem_solvers::Solver::new(choice, &system.pattern, &rest))
-    }
-
-    /// [`Solver::prepare`](fem_solvers::Solver::prepare)
-    pub fn prepare(&mut self, values: &[Block<f64, 3>]) -> Result<(), Breakdown> {
-        self.0.prepare(values)
-    }
-
-    /// [`Solver::solve`](fem_solvers::Solver::solve)
-    pub fn solve(
-        &mut self,
-        values: &[Block<f64, 3>],
-        b: &[[f64; 3]],
-        x: &mut [[f64; 3]],
-        tolerance: f64,
-    ) -> Result<usize, Breakdown> {
-        self.0.solve(values, b, x, tolerance)
-    }
-
-    /// [`Solver::apply`](fem_solvers::Solver::apply)
-    pub fn apply(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
-        self.0.apply(r, z);
-    }
 }

@@ -10,8 +10,7 @@ use crate::newton::{Newton, NewtonLimits};
 use crate::simulator::device_assembly;
 #[cfg(feature = "gpu")]
 use crate::simulator::device_elements;
-use fem_solvers::Real;
-use fem_solvers::{Preconditioner, Solver, SolverChoice, factor_fits};
+use fem_solvers::{Preconditioner, Real, Solver, SolverChoice, factor_fits};
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
 const SMALLEST_RESIDUAL: f64 = 8.0;
@@ -81,8 +80,7 @@ pub(super) fn build<T: Real>(
     choice: SolverChoice,
     planes: Option<&Planes>,
 ) -> Box<dyn Integrator<T>> {
-    let rest = || -> Vec<[f64; 3]> { system.rest[..system.free()].iter().map(|x| (*x).into()).collect() };
-    let solver = || Solver::new(choice, &system.pattern, &rest());
+    let solver = || system.solver(choice);
     let tolerance = method.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
     let tolerance = tolerance.max(SMALLEST_RESIDUAL * T::EPSILON.as_f64());
     let newton = || {
@@ -97,7 +95,7 @@ pub(super) fn build<T: Real>(
         } else if kind == IntegratorKind::Static || system.may_be_linear() {
             solver()
         } else {
-            Solver::for_directions(choice, &system.pattern, &rest())
+            system.solver_for_directions(choice)
         };
         let is_on_device = matches!(choice, SolverChoice::Gpu(_));
         let is_assembled_there = is_on_device && device_assembly::is_possible(kind, method, system);

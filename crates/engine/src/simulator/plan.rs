@@ -8,8 +8,7 @@ use fem_model::{
 use crate::forces::{self, Potential, contact};
 use crate::simulator::device_assembly;
 use fem_elements::plasticity;
-use fem_solvers::Real;
-use fem_solvers::SolverChoice;
+use fem_solvers::{Real, SolverChoice};
 
 /// Bytes, uses and seconds, which only a simulation knows.
 const NO_COST: (usize, f64) = (0, 0.0);

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use fem_chart::{Axis, Chart, Dot, Series};
 use fem_engine::forces::Moment;
-use fem_engine::simulator::double::{self, Solver, System};
+use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::krylov::{self, Workspace, conjugate_gradients};
 use fem_engine::solvers::lanczos::irregular;
 use fem_engine::solvers::{Preconditioner, SolverChoice};
@@ -137,7 +137,7 @@ impl LinearSystem {
             system.dirichlet.clear_constrained(&mut b);
         }
         let failed = |cause: fem_model::simulation::Breakdown| format!("{name}: its matrix has no factor: {cause}");
-        let mut direct = Solver::new(SolverChoice::Lu, &system);
+        let mut direct = system.solver(SolverChoice::Lu);
         direct.prepare(&values).map_err(failed)?;
         let mut exact = undeformed;
         direct.solve(&values, &b, &mut exact, 1e-13).map_err(failed)?;
@@ -174,7 +174,7 @@ impl LinearSystem {
             Method::IncompleteCholesky => IncompleteCholesky::new(pattern, values)
                 .and_then(|factor| conjugate_gradients(of, |r, z| factor.apply(r, z), &mut x, room, &mut observe)),
             Method::Gradients(preconditioner) => {
-                let mut solver = Solver::new(preconditioner.map_or(SolverChoice::Cg, SolverChoice::Pcg), &self.system);
+                let mut solver = self.system.solver(preconditioner.map_or(SolverChoice::Cg, SolverChoice::Pcg));
                 solver
                     .prepare(values)
                     .and_then(|()| conjugate_gradients(of, |r, z| solver.apply(r, z), &mut x, room, &mut observe))

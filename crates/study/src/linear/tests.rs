@@ -1,6 +1,5 @@
 //! The methods on a short beam: beside their bounds, beside each other, and on matrices that have no solution.
 
-use fem_engine::simulator::double;
 use fem_engine::solvers::SolverChoice;
 use fem_model::simulation::Breakdown;
 use fem_model::{Axis, Body, Elastic, Law, Material, NeoHookean, Selector};
@@ -81,5 +80,5 @@ fn preconditioned_gradients_take_fewer_iterations() {
     let plain = iterations(Method::Gradients(None));
     assert!(iterations(Method::IncompleteCholesky) < plain);
     assert!(iterations(Method::Gradients(Some(Preconditioner::BlockJacobi))) < plain);
-    assert!(double::Solver::new(SolverChoice::Cg, &system.system).prepare(&system.values).is_ok());
+    assert!(system.system.solver(SolverChoice::Cg).prepare(&system.values).is_ok());
 }

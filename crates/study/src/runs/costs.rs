@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::reference::Equations;
 use crate::runs::row::Row;
 use fem_engine::forces::Moment;
-use fem_engine::simulator::double::{self, Solver};
+use fem_engine::simulator::double;
 use fem_engine::solvers::SolverChoice;
 use fem_output::quantile;
 
@@ -37,7 +37,7 @@ pub fn measure(equations: &Equations) -> Costs {
     let mut gradient = u.clone();
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     let moment = Moment::at(0.0);
-    let mut solver = Solver::new(SolverChoice::Cholesky, system);
+    let mut solver = system.solver(SolverChoice::Cholesky);
     let force = median(|| double::gradient(system, &u, moment, &mut gradient));
     let pass = median(|| {
         double::potential_and_gradient(system, &u, moment, &mut gradient);

@@ -5,7 +5,7 @@
 //! and explicit methods as much shorter steps as the root of the largest eigenvalue does.
 
 use fem_engine::simulator::Simulator;
-use fem_engine::simulator::double::{Solver, System, add_stiffness, add_stiffness_times};
+use fem_engine::simulator::double::{System, add_stiffness, add_stiffness_times};
 use fem_engine::solvers::SolverChoice;
 use fem_engine::solvers::lanczos::{self, irregular};
 use fem_engine::vector::dot;
@@ -63,7 +63,7 @@ pub fn conditioning(mesh: &TetrahedralMesh) -> Result<Conditioning, String> {
     let largest = largest_eigenvalue(system, times_stiffness);
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     add_stiffness(system, &undeformed, &mut values);
-    let mut solver = Solver::new(SolverChoice::Cholesky, system);
+    let mut solver = system.solver(SolverChoice::Cholesky);
     solver.prepare(&values).map_err(|breakdown| format!("the stiffness cannot be factored: {breakdown}"))?;
     let smallest = 1.0 / largest_eigenvalue(system, |x, y| solver.apply(x, y));
     Ok(Conditioning { largest, smallest, axis })

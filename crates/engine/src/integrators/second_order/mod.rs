@@ -27,8 +27,7 @@ use crate::model::system::System;
 use crate::newton::{LastEvaluation, Newton};
 use coefficients::Coefficients;
 use fem_elements::history::{put, put_option, take, take_option};
-use fem_solvers::Real;
-use fem_solvers::Solver;
+use fem_solvers::{Real, Solver};
 use history::Known;
 use start::Start;
 

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use fem_engine::simulator::double::{Solver, add_stiffness, system};
+use fem_engine::simulator::double::{add_stiffness, system};
 use fem_engine::solvers::SolverChoice;
 use fem_model::{Body, Elastic, Law, Material};
 use nalgebra::{Cholesky, DMatrix, Vector3};
@@ -54,7 +54,7 @@ fn frequencies(body: Body) -> Result<Vec<f64>> {
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     add_stiffness(&system, &vec![[0.0; 3]; nodes], &mut values);
     system.dirichlet.eliminate(&system.pattern, &mut values);
-    let mut solver = Solver::new(SolverChoice::Cholesky, &system);
+    let mut solver = system.solver(SolverChoice::Cholesky);
     solver.prepare(&values).map_err(|breakdown| format!("{breakdown:?}"))?;
     let mass_times = |x: &DMatrix<f64>| {
         let mut product = DMatrix::zeros(3 * nodes, VECTORS);
