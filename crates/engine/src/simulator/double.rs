@@ -1,6 +1,6 @@
 //! A body's parts in double precision, for studies that call them one by one.
 //!
-//! The generic functions of the same names are compiled anew in each crate that calls them, with all elements, laws and solvers; these
+//! The generic functions of the same names are compiled anew in each crate that calls them, with all forces of a body; these
 //! are compiled here, once.
 
 use fem_model::Body;

@@ -9,8 +9,8 @@ use super::{Solver, SolverChoice};
 use fem_elements::sparse::{Block, Pattern};
 use fem_model::simulation::Breakdown;
 
-/// The float that a whole simulation runs in: one whose loops over elements and whose solvers are compiled. Its functions are the bodies
-/// of [`Solver`]'s of the same names.
+/// The float that a whole simulation runs in. [`fem_elements::Real`] has its loops over elements; this trait adds its linear solvers, under
+/// the same name, since code above both packages uses this one alone. Its functions are the bodies of [`Solver`]'s of the same names.
 pub trait Real: fem_elements::Real {
     #[doc(hidden)]
     fn new(choice: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Solver<Self>;
