@@ -29,28 +29,3 @@ fn shifted(set: MeshSet, nodes: usize, elements: usize) -> MeshSet {
         points: set.points.into_iter().map(|node| nodes + node).collect(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::join;
-    use crate::{MeshSet, Pattern, box_mesh, volumes};
-
-    #[test]
-    fn joined_meshes_follow_one_another_with_their_sets() {
-        let small = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
-        let mut large = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
-        large.vertices.iter_mut().for_each(|vertex| vertex.y += 5.0);
-        let corner = MeshSet { faces: vec![[0, 1, 4]], points: vec![3], ..MeshSet::default() };
-        large.sets.insert("corner".to_owned(), corner);
-        let joined = join([("small".to_owned(), small), ("large".to_owned(), large)]);
-        assert_eq!((joined.vertices.len(), joined.elements.len()), (8 + 12, 6 + 12));
-        assert!((volumes(&joined).iter().sum::<f64>() - 3.0).abs() < 1e-12);
-        assert!(joined.elements[6..].iter().flatten().all(|&node| node >= 8));
-        assert_eq!(joined.sets["small"].elements, [0, 1, 2, 3, 4, 5]);
-        assert_eq!(joined.sets["large"].elements, (6..18).collect::<Vec<_>>());
-        assert_eq!(
-            (&joined.sets["corner"].faces[..], &joined.sets["corner"].points[..]),
-            (&[[8, 9, 12]][..], &[11][..])
-        );
-    }
-}

@@ -75,6 +75,23 @@ impl Beam {
         values.into_iter().map(|block: [[f64; 3]; 3]| block.map(|row| row.map(T::of))).collect()
     }
 
+    /// A x for a matrix A with these blocks.
+    pub fn times<T: Real>(&self, values: &[[[T; 3]; 3]], x: &[[T; 3]]) -> Vec<[T; 3]> {
+        let (pattern, mut y) = (&self.pattern, vec![[T::default(); 3]; x.len()]);
+        for row in 0..pattern.rows() {
+            for block in pattern.row(row) {
+                let column = pattern.columns[block] as usize;
+                for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+                    y[row][i] += values[block][i][j] * x[column][j];
+                    if pattern.stored == Stored::Lower && row != column {
+                        y[column][j] += values[block][i][j] * x[row][i];
+                    }
+                }
+            }
+        }
+        y
+    }
+
     fn add(&self, values: &mut [[[f64; 3]; 3]], [row, column]: [u32; 2], entry: &Matrix3<f64>) {
         let rows = self.pattern.rows() as u32;
         if row >= rows || column >= rows {

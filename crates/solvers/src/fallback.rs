@@ -64,3 +64,18 @@ fn without_verdict(breakdown: Breakdown) -> Breakdown {
         other => other,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beam::Beam;
+    use fem_elements::sparse::Stored;
+
+    #[test]
+    fn without_memory_for_a_factor_nothing_is_known_but_that_the_iteration_has_not_converged() {
+        let beam = Beam::new(3, Stored::Lower);
+        let mut without_memory = DirectFallback::<f64>::within(Some(1000));
+        let outcome = without_memory.prepare(&beam.pattern, &beam.values(), Breakdown::NotPositiveDefinite);
+        assert_eq!(outcome, Err(Breakdown::NotConverged { residual: 1.0 }));
+    }
+}

@@ -25,11 +25,8 @@ mod preconditioners;
 mod solver;
 
 #[cfg(test)]
-pub(crate) mod beam;
-#[cfg(test)]
-mod slender_tests;
-#[cfg(test)]
-mod tests;
+#[allow(dead_code)] // the tests in tests/ use the rest of it
+mod beam;
 
 pub use assembly::Assembly;
 #[cfg(feature = "gpu")]

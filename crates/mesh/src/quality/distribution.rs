@@ -116,6 +116,9 @@ mod tests {
         let found = [0.0, 0.2, 0.21, 0.5, 1.0].map(|part| some().quantile(part));
         assert_eq!(found, [0.5, 0.5, 1.0, 1.5, 9.0]);
         assert!(Distribution::new("", "", vec![0.0], 1.0, std::iter::empty()).quantile(0.5).is_nan());
+        let values: Vec<f64> = (1..=200).map(f64::from).collect();
+        let found = [quantile(&values, 0.99), quantile(&values, 0.5), quantile(&values[..1], 0.5)];
+        assert_eq!(found, [198.0, 100.0, 1.0]);
     }
 
     #[test]

@@ -1,18 +1,24 @@
 //! Meshes: valid and damaged files, the check, the boundary, the box, refinement, and files for other programs.
 
+mod boundaries;
 mod box_rule;
+mod boxes;
 mod cages;
 mod checks;
+mod connected;
 mod delaunay;
 mod delaunay_sets;
+mod distributions;
 mod errors;
 mod every_format;
 mod features;
 mod formats;
 mod garbage;
 mod gmsh;
+mod joined;
 mod matrix;
 mod odt_space;
+mod oriented;
 mod other_programs;
 mod packed;
 mod pictures;
@@ -20,10 +26,13 @@ mod progress;
 mod quadratic;
 mod refined;
 mod round_trip;
+mod self_intersections;
 mod sets_kept;
+mod shapes;
 mod shipped;
 mod sides;
 mod stuffing;
+mod surface_quality;
 mod surfaces;
 mod triangles;
 mod untidy;

@@ -5,9 +5,6 @@ mod reordered;
 mod single;
 mod supernodal;
 
-#[cfg(test)]
-mod tests;
-
 pub use ldlt::Ldlt;
 pub(crate) use reordered::Reordered;
 pub(crate) use supernodal::{Lu, SupernodalCholesky};

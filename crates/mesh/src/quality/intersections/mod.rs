@@ -72,6 +72,3 @@ fn cross((a, corners): (&Triangle, [usize; 3]), (b, others): (&Triangle, [usize;
         _ => true,
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,4 +1,4 @@
-//! Distance between a torus and the tetrahedra inside it, against the edge: `cargo run --release -p fem-mesh --example distance_to_torus`.
+//! Distance between a torus and the tetrahedra inside it, against the edge: `cargo run --release -p fem-mesh-tests --example distance_to_torus`.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Draws the pictures of `data/pictures`: `cargo run --release -p fem-mesh --features pictures --example draw_pictures -- FOLDER`.
+//! Draws the pictures of `data/pictures`: `cargo run --release -p fem-mesh-tests --example draw_pictures -- FOLDER`.
 //!
 //! Each shape is a function that tells whether a point is inside; the coverage of a pixel is the mean over 16 × 16 points. Paint is a
 //! function of the point too, and goes on around the shape, so that no other colour shows at its outline. The armadillo is that of

@@ -1,14 +1,10 @@
+//! Self-intersections of surfaces, beside integer arithmetic.
+
+use fem_mesh::{Pattern, SelfIntersections, SurfaceMesh, boundary, box_mesh, self_intersections};
 use nalgebra::Vector3;
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed};
 
-use super::*;
-use crate::{Pattern, boundary, box_mesh};
-
-/// Random cases that are the same in every run.
-fn fixed_seed(cases: u32) -> Config {
-    Config { cases, rng_seed: RngSeed::Fixed(21), failure_persistence: None, ..Config::default() }
-}
+use super::fixed_seed;
 
 fn surface(vertices: &[[i64; 3]], elements: &[[usize; 3]]) -> SurfaceMesh {
     let places = vertices.iter().map(|x| Vector3::from(x.map(|x| x as f64))).collect();

@@ -1,5 +1,5 @@
 //! Times the Delaunay mesh of points for other programs to be compared with:
-//! `cargo run --release -p fem-mesh --example time_delaunay -- DIMENSIONS REPEATS POINTS OUT`.
+//! `cargo run --release -p fem-mesh-tests --example time_delaunay -- DIMENSIONS REPEATS POINTS OUT`.
 //!
 //! `POINTS` are the coordinates as bytes, eight for each, little-endian; `OUT` receives the numbers of the elements' corners, four bytes for each.
 //! Prints the time of the fastest run, s.

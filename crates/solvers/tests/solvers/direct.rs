@@ -1,39 +1,31 @@
 //! Factorisations against the matrices that they are of, and against each other.
 
-use super::single::SingleCholesky;
-use super::{Ldlt, Lu, Reordered, SupernodalCholesky};
-use crate::ApproximateInverse;
-use crate::beam::{Beam, random};
-use crate::krylov::{parts, product};
-use fem_elements::sparse::{Block, Pattern, Stored};
+use fem_elements::sparse::{Block, Stored};
 use fem_elements::vector::{norm, subtract_from};
 use fem_model::simulation::Breakdown;
+use fem_solvers::{Ldlt, Solver, SolverChoice};
 
-/// ‖b − A x‖ / ‖b‖ for the x of a factor.
-fn residual(beam: &Beam, values: &[Block<f64, 3>], solve: impl FnOnce(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
-    let b = random(beam.pattern.rows(), 9);
-    let (mut x, mut left) = (vec![[0.0; 3]; b.len()], vec![[0.0; 3]; b.len()]);
-    solve(&b, &mut x);
-    product(&beam.pattern, &parts(&beam.pattern), values, &x, &mut left);
-    subtract_from(&b, &mut left);
-    norm(&left) / norm(&b)
+use super::beam::{Beam, random};
+use super::{beam, residual};
+
+/// The solution with a prepared factor alone, without a correction.
+fn applied(solver: &mut Solver<f64>, b: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut x = vec![[0.0; 3]; b.len()];
+    solver.apply(b, &mut x);
+    x
 }
 
 /// Beams of one front and of several, of subtrees that threads share, and of fronts that they share.
 const CELLS: [usize; 4] = [1, 3, 6, 11];
 
 #[test]
-fn a_cholesky_factor_solves_with_its_matrix_in_any_order_of_the_rows() {
+fn a_cholesky_factor_solves_with_its_matrix() {
     for cells in CELLS {
-        let beam = Beam::new(cells, Stored::Lower);
-        let values = beam.values::<f64>();
-        let mut factor = SupernodalCholesky::new(&beam.pattern);
-        factor.prepare(&values).unwrap();
-        let of_factor = residual(&beam, &values, |b, x| factor.apply(b, x));
-        let mut reordered = Reordered::within(&beam.pattern, None);
-        reordered.prepare(&values).unwrap();
-        let of_reordered = residual(&beam, &values, |b, x| reordered.apply(b, x));
-        assert!(of_factor < 1e-12 && of_reordered < 1e-12, "{cells} cells: {of_factor:e}, {of_reordered:e}");
+        let (beam, mut solver) = beam(SolverChoice::Cholesky, cells);
+        let (values, b) = (beam.values(), random(beam.pattern.rows(), 9));
+        solver.prepare(&values).unwrap();
+        let left = residual(&beam, &values, &b, &applied(&mut solver, &b));
+        assert!(left < 1e-12, "{cells} cells: {left:e}");
     }
 }
 
@@ -52,11 +44,11 @@ fn turned(beam: &Beam, values: &[Block<f64, 3>]) -> Vec<Block<f64, 3>> {
 #[test]
 fn an_lu_factor_solves_with_matrices_that_are_neither_symmetric_nor_definite() {
     for cells in CELLS {
-        let beam = Beam::new(cells, Stored::Full);
-        for values in [beam.values::<f64>(), turned(&beam, &beam.values())] {
-            let mut factor = Lu::new(&beam.pattern);
-            ApproximateInverse::<f64>::prepare(&mut factor, &values).unwrap();
-            let left = residual(&beam, &values, |b, x| factor.apply(b, x));
+        let (beam, mut solver) = beam(SolverChoice::Lu, cells);
+        let b = random(beam.pattern.rows(), 9);
+        for values in [beam.values(), turned(&beam, &beam.values())] {
+            solver.prepare(&values).unwrap();
+            let left = residual(&beam, &values, &b, &applied(&mut solver, &b));
             assert!(left < 1e-11, "{cells} cells: {left:e}");
         }
     }
@@ -64,40 +56,26 @@ fn an_lu_factor_solves_with_matrices_that_are_neither_symmetric_nor_definite() {
 
 #[test]
 fn an_lu_factor_refuses_a_matrix_with_a_row_of_zeros() {
-    let beam = Beam::new(3, Stored::Full);
-    let mut values = beam.values::<f64>();
+    let (beam, mut solver) = beam::<f64>(SolverChoice::Lu, 3);
+    let mut values = beam.values();
     for block in beam.pattern.row(20) {
         values[block][1] = [0.0; 3];
     }
-    assert_eq!(ApproximateInverse::<f64>::prepare(&mut Lu::new(&beam.pattern), &values), Err(Breakdown::Singular));
-}
-
-/// Solutions by factors that 1, 2 and 5 threads have computed.
-fn by_threads<F: ApproximateInverse<f64>>(beam: &Beam, new: impl Fn(&Pattern) -> F) -> [Vec<[f64; 3]>; 3] {
-    let (values, b) = (beam.values(), random(beam.pattern.rows(), 9));
-    [1, 2, 5].map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let (mut factor, mut x) = (new(&beam.pattern), b.clone());
-        pool.install(|| factor.prepare(&values)).unwrap();
-        factor.apply(&b, &mut x);
-        x
-    })
+    assert_eq!(solver.prepare(&values), Err(Breakdown::Singular));
 }
 
 #[test]
 fn a_factor_does_not_depend_on_the_number_of_threads() {
-    let cholesky = by_threads(&Beam::new(11, Stored::Lower), SupernodalCholesky::new);
-    let lu = by_threads(&Beam::new(11, Stored::Full), Lu::new);
-    for [one, two, five] in [cholesky, lu] {
-        assert!(one == two && two == five);
+    for choice in [SolverChoice::Cholesky, SolverChoice::Lu] {
+        let (beam, mut solver) = beam(choice, 11);
+        let (values, b) = (beam.values(), random(beam.pattern.rows(), 9));
+        let [one, two, five] = [1, 2, 5].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| solver.prepare(&values)).unwrap();
+            applied(&mut solver, &b)
+        });
+        assert!(one == two && two == five, "{choice}");
     }
-}
-
-#[test]
-fn a_factor_that_does_not_fit_into_memory_is_refused() {
-    let beam = Beam::new(3, Stored::Lower);
-    let mut factor = SupernodalCholesky::<f64>::within(&beam.pattern, Some(10_000));
-    assert_eq!(factor.prepare(&beam.values()), Err(Breakdown::TooLarge));
 }
 
 /// The scalars of the lower half of a block matrix: their rows and columns, and their values.
@@ -149,27 +127,31 @@ fn a_factor_of_a_matrix_of_scalars_counts_its_positive_eigenvalues() {
 }
 
 #[test]
-fn a_factorisation_of_a_matrix_that_is_not_positive_definite_or_not_finite_fails() {
+fn a_factorisation_of_a_matrix_that_is_not_positive_definite_or_not_finite_fails_in_any_precision() {
+    let choice = SolverChoice::Cholesky;
     for cells in [3, 8] {
         let beam = Beam::new(cells, Stored::Lower);
         let indefinite = beam.scaled::<f64>(|element| if element % 5 == 0 { -1.5 } else { 1.0 }, 0.0);
         let mut infinite = beam.values::<f64>();
         infinite[7][1][1] = f64::INFINITY;
-        let outcome = |values: &[Block<f64, 3>]| SupernodalCholesky::new(&beam.pattern).prepare(values);
-        assert_eq!(outcome(&indefinite), Err(Breakdown::NotPositiveDefinite));
-        assert_eq!(outcome(&infinite), Err(Breakdown::Singular));
+        let zero = beam.scaled::<f64>(|_| 0.0, 0.0);
+        let verdicts = [Breakdown::NotPositiveDefinite, Breakdown::Singular, Breakdown::Singular];
+        for (values, verdict) in [indefinite, infinite, zero].iter().zip(verdicts) {
+            for new in [Solver::new, Solver::for_directions] {
+                assert_eq!(new(choice, &beam.pattern, &beam.rest).prepare(values), Err(verdict));
+            }
+        }
     }
 }
 
 /// Relative distance of the solutions by the factor in single precision and by the one in double precision.
-fn error_of_single(beam: &Beam, values: &[[[f64; 3]; 3]]) -> f64 {
+fn error_of_single(beam: &Beam, values: &[Block<f64, 3>]) -> f64 {
     let b = random(beam.pattern.rows(), 9);
-    let (mut x, mut y) = (b.clone(), b.clone());
-    let (mut single, mut double) = (SingleCholesky::new(&beam.pattern), SupernodalCholesky::<f64>::new(&beam.pattern));
-    single.prepare(values).unwrap();
-    double.prepare(values).unwrap();
-    single.apply(&b, &mut x);
-    double.apply(&b, &mut y);
+    let [mut x, y] = [Solver::for_directions, Solver::new].map(|new| {
+        let mut solver = new(SolverChoice::Cholesky, &beam.pattern, &beam.rest);
+        solver.prepare(values).unwrap();
+        applied(&mut solver, &b)
+    });
     subtract_from(&y, &mut x);
     norm(&x) / norm(&y)
 }
@@ -188,18 +170,4 @@ fn a_factor_in_single_precision_has_a_few_digits_at_any_scale() {
 fn an_ill_conditioned_matrix_is_factored_in_its_own_precision() {
     let beam = Beam::constrained_where(4, Stored::Lower, |x| x.x == 0.0 && x.y == 0.0 && x.z == 0.0);
     assert_eq!(error_of_single(&beam, &beam.scaled(|_| 1.0, 1e-9)), 0.0);
-}
-
-#[test]
-fn a_factor_in_single_precision_refuses_the_same_matrices() {
-    let beam = Beam::new(3, Stored::Lower);
-    let indefinite = beam.scaled::<f64>(|element| if element % 5 == 0 { -1.5 } else { 1.0 }, 0.0);
-    let zero = beam.scaled::<f64>(|_| 0.0, 0.0);
-    let mut infinite = beam.values::<f64>();
-    infinite[7][1][1] = f64::INFINITY;
-    for values in [indefinite, zero, infinite] {
-        let outcome = SingleCholesky::new(&beam.pattern).prepare(&values);
-        assert!(outcome.is_err());
-        assert_eq!(outcome, SupernodalCholesky::new(&beam.pattern).prepare(&values));
-    }
 }

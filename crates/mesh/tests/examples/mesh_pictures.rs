@@ -1,5 +1,5 @@
 //! Meshes pictures, times it and writes the meshes for other programs to be compared with:
-//! `cargo run --release -p fem-mesh --features pictures --example mesh_pictures -- FOLDER EDGE ITERATIONS PICTURE…`.
+//! `cargo run --release -p fem-mesh-tests --example mesh_pictures -- FOLDER EDGE ITERATIONS PICTURE…`.
 //!
 //! Prints a line `name,triangles,wish,worst,99 %,median,seconds from the boundary,seconds from the pixels,pixel` for each; `FOLDER/NAME.poly.csv` holds the edges of the mesh's boundary.
 
