@@ -5,8 +5,8 @@ use fem_engine::cantilever;
 use fem_mesh::TetrahedralMesh;
 use fem_model::Body;
 use fem_model::simulation::{Part, Simulation};
+use fem_reference::space::conditioning::conditioning;
 use fem_scene::Scene;
-use fem_study::space::conditioning::conditioning;
 use nalgebra::Vector3;
 
 use crate::end::End;

@@ -22,8 +22,8 @@ use fem_model::simulation::Breakdown;
 use fem_model::{Body, Integrator};
 use fem_scene::Scene;
 
-use crate::space::conditioning::largest_eigenvalue;
 use crate::study::{Case, Finished, Found, Mark, Page, Part, Study, Table, write};
+use fem_reference::space::conditioning::largest_eigenvalue;
 use incomplete_cholesky::IncompleteCholesky;
 use iterations::{conjugate_directions, steepest_descent};
 

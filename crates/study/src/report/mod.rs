@@ -16,7 +16,6 @@ use serde_json::{Value, json};
 use crate::machine::Machine;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
 use crate::runs::row::{self, Row};
-use crate::space::{locking, manufactured};
 use crate::studies::Settings;
 use crate::studies::scene::{self, Question, SceneStudy};
 use crate::studies::space::{SpaceOrders, SpaceStudy, study as study_space};
@@ -24,6 +23,7 @@ use crate::study::{Case, Column, Finished, Found, Problem, Result, Study, Table}
 use fem_chart::Picture;
 use fem_chart::page::{page, table};
 use fem_mesh::write::save_bytes;
+use fem_reference::space::{locking, manufactured};
 use fem_scene::{Scene, parse};
 use text::number;
 

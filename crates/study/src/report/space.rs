@@ -8,11 +8,11 @@ use super::text::{number, seconds};
 use super::{Observed, Report, charts, orders_in_time};
 use crate::runs::convergence_order::ConvergenceOrder;
 use crate::runs::row::Row;
-use crate::scenes::LINEAR;
-use crate::space::locking::{RATIOS, TipDeflection};
-use crate::space::manufactured;
 use crate::studies::space::{SpaceOrders, SpaceStudy, spacing};
 use crate::study::{Column, Table};
+use fem_reference::LINEAR;
+use fem_reference::space::locking::{RATIOS, TipDeflection};
+use fem_reference::space::manufactured;
 
 /// Convergence orders in time on the small body.
 pub(super) fn orders(report: &Report) -> Markup {

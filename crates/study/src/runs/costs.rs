@@ -4,12 +4,12 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use crate::reference::Equations;
 use crate::runs::row::Row;
 use fem_engine::forces::Moment;
 use fem_engine::simulator::double;
 use fem_engine::solvers::SolverChoice;
 use fem_output::quantile;
+use fem_reference::time::Equations;
 
 /// Time of one call, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -111,7 +111,7 @@ pub fn first(factory: &Factory, run: &PlannedRun, most_seconds: f64) -> Result<R
         min_j,
         counters: simulation.counters(),
         estimated,
-        analytic: crate::space::closed_forms::error(&run.scene, &*simulation).filter(|_| failure.is_none()),
+        analytic: fem_reference::space::closed_forms::error(&run.scene, &*simulation).filter(|_| failure.is_none()),
         failure,
         peak_mb: machine::peak_mb(),
         spent,

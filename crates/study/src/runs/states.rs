@@ -4,10 +4,10 @@ use std::path::Path;
 
 use nalgebra::DVector;
 
-use crate::reference::Reference;
-use crate::space::norms;
 use fem_mesh::write::save_bytes;
 use fem_model::BodyMesh;
+use fem_reference::space::norms;
+use fem_reference::time::Reference;
 
 /// The state at the end of a run.
 #[derive(Clone, Copy, Debug)]

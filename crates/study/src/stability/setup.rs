@@ -12,8 +12,9 @@ use nalgebra::Vector3;
 
 use super::case::{Case, Finding, Outcome, SMALLEST_J};
 use super::march::march;
-use crate::scenes::{self, Elements, LINEAR};
+use crate::scenes;
 use crate::study::{Deadline, Result};
+use fem_reference::{Elements, LINEAR};
 
 /// The integrators in time that are not iterated.
 pub fn dynamic() -> impl Iterator<Item = Integrator> {

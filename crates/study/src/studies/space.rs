@@ -4,14 +4,14 @@ use super::Settings;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
 use crate::runs::row::{Configuration, Errors, Row, Times};
 use crate::runs::states::{Snapshot, write_reference, write_state};
-use crate::scenes::{LINEAR, WITHOUT_LOCKING};
-use crate::space::locking::{self, TipDeflection};
-use crate::space::manufactured;
-use crate::space::norms;
 use crate::study::Result;
 use fem_engine::cantilever::moduli;
 use fem_model::Integrator;
 use fem_model::element::Element;
+use fem_reference::space::locking::{self, TipDeflection};
+use fem_reference::space::manufactured;
+use fem_reference::space::norms;
+use fem_reference::{LINEAR, WITHOUT_LOCKING};
 use serde::{Deserialize, Serialize};
 
 /// The results.

@@ -18,16 +18,11 @@ use serde::de::DeserializeOwned;
 
 use crate::machine::Machine;
 
+pub use fem_reference::{Problem, Result};
 pub use journal::{Shard, arguments};
 pub(crate) use page::csv_text;
 pub use page::{Column, Figure, Mark, Page, Part, Table, write};
 pub use runner::{Deadline, Run, Stopped, carry_out, guarded, rows};
-
-/// The reason why a computation of a study has no result, as a sentence.
-pub type Problem = Box<dyn std::error::Error + Send + Sync>;
-
-/// The result of such a computation.
-pub type Result<T, E = Problem> = std::result::Result<T, E>;
 
 /// A case of a study.
 pub struct Case<'a, Row> {

@@ -20,8 +20,8 @@ use serde::{Deserialize, Serialize};
 pub use file::read;
 
 use crate::runs::measure::Factory;
-use crate::space::{closed_forms, norms};
 use crate::study::{Case, Finished, Found, Study};
+use fem_reference::space::{closed_forms, norms};
 
 /// A scene with the values of the keys of a study.
 #[derive(Clone, Debug)]

@@ -8,8 +8,8 @@ use fem_model::{BodyMesh, Elastic, Law, Material, Region, Selector};
 use nalgebra::{Matrix3, Vector3};
 
 use super::case::{equilibrium, supported};
-use crate::space::norms;
 use crate::study::{Mark, Part, Result, Table};
+use fem_reference::space::norms;
 
 /// Inner and outer radius, m; the pressure, Pa, small enough for its following the inner surface to be without effect.
 const INNER: f64 = 1.0;

@@ -5,9 +5,9 @@ use std::path::Path;
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
 
 use crate::runs::convergence_order::fit;
-use crate::space::manufactured::{label, orders, solve};
 use crate::study::{Mark, Part, Result, Table};
 use fem_model::element::Element;
+use fem_reference::space::manufactured::{label, orders, solve};
 
 const MODELS: [&str; 2] = ["linear", "neo_hookean"];
 

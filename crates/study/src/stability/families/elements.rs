@@ -6,7 +6,7 @@ use super::slivers::{Thin, sliver};
 use super::stiffness_and_step::{DT, YOUNG, add_weighed, vibrating};
 use super::*;
 use super::{invariance, recovery};
-use crate::scenes::{Elements, LINEAR, QUADRATIC};
+use fem_reference::{Elements, LINEAR, QUADRATIC};
 
 const FAMILY: &str = "elements";
 

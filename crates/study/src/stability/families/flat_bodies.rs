@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::invariance::in_rigid_motion;
 use super::recovery::MARGIN_IS;
 use super::*;
-use crate::scenes::{Elements, LINEAR};
+use fem_reference::{Elements, LINEAR};
 
 const FAMILY: &str = "flat bodies";
 

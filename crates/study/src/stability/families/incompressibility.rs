@@ -5,8 +5,8 @@ use fem_model::simulation::Simulation;
 use fem_model::{Axis, Integrator, Selector};
 
 use super::*;
-use crate::scenes::{Elements, LINEAR, WITHOUT_LOCKING};
-use crate::space::locking::{RATIOS, ratios};
+use fem_reference::space::locking::{RATIOS, ratios};
+use fem_reference::{Elements, LINEAR, WITHOUT_LOCKING};
 
 const FAMILY: &str = "Poisson's ratio";
 

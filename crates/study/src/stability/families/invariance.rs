@@ -6,7 +6,7 @@ use fem_model::Integrator;
 use nalgebra::Vector3;
 
 use super::*;
-use crate::scenes::{Elements, LINEAR};
+use fem_reference::{Elements, LINEAR};
 
 const FAMILY: &str = "invariance";
 

@@ -14,7 +14,7 @@ use super::refusals::{refusal, scene};
 use super::single_precision::compared;
 use super::stiffness_and_step::{DT, YOUNG};
 use super::*;
-use crate::scenes::LINEAR;
+use fem_reference::LINEAR;
 
 const FAMILY: &str = "iterated methods";
 

@@ -4,7 +4,7 @@ use fem_model::Integrator;
 use std::ops::RangeInclusive;
 
 use super::*;
-use crate::scenes::LINEAR;
+use fem_reference::LINEAR;
 
 /// Young's moduli, from bottom to top: powers of ten, Pa.
 pub const EXPONENTS_OF_YOUNG: RangeInclusive<i32> = 2..=12;

@@ -7,7 +7,7 @@ use fem_model::{Integrator, Motion};
 use super::invariance::in_rigid_motion;
 use super::stiffness_and_step::{DT, YOUNG};
 use super::*;
-use crate::scenes::LINEAR;
+use fem_reference::LINEAR;
 
 const FAMILY: &str = "mass-spring bodies";
 const MODEL: &str = "mass_spring";

@@ -12,7 +12,7 @@ use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::*;
-use crate::scenes::{Elements, LINEAR};
+use fem_reference::{Elements, LINEAR};
 
 const FAMILY: &str = "recovery";
 

@@ -1,8 +1,8 @@
 //! Soft to stiff bodies, short to long time steps: each integrator with each material.
 
 use super::*;
-use crate::scenes::LINEAR;
 use fem_model::Integrator;
+use fem_reference::LINEAR;
 
 const FAMILY: &str = "stiffness and time step";
 

@@ -5,10 +5,10 @@ use nalgebra::DVector;
 use super::SceneStudy;
 use super::meshes::{StudyMeshes, most_reference_seconds};
 use crate::runs::plan;
-use crate::space::closed_forms;
-use crate::space::nested::{self, Level, RichardsonEstimate};
 use crate::study::Result;
 use fem_model::Integrator;
+use fem_reference::space::closed_forms;
+use fem_reference::space::nested::{self, Level, RichardsonEstimate};
 use fem_scene::Scene;
 
 /// ω_max dt of a stable step of Verlet, with a margin.

@@ -8,14 +8,14 @@ use fem_scene::{Pipeline, Scene};
 use nalgebra::DVector;
 
 use super::{SceneStudy, Settings};
-use crate::reference::{Equations, Reference, reference};
 use crate::runs::costs;
 use crate::runs::measure::RunResult;
 use crate::runs::plan::{PlannedRun, solver_name};
 use crate::runs::row::{Configuration, Errors, Row};
 use crate::runs::states::{Snapshot, write_reference, write_state};
-use crate::space::norms;
 use crate::study::Result;
+use fem_reference::space::norms;
+use fem_reference::time::{Equations, Reference, reference};
 
 /// Largest time of a reference, and of the finest of three nested meshes, s.
 pub(super) fn most_reference_seconds(is_quick: bool) -> f64 {

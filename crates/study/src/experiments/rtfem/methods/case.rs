@@ -7,9 +7,9 @@ use fem_model::simulation::Simulation;
 use fem_model::{Axis, Body, BodyMesh, Integrator, Material, Method, NewtonSettings, PlaneState, Region, Selector};
 use nalgebra::{DVector, Vector3};
 
-use crate::reference::{Equations, reference};
 use crate::scenes::{SPRINGS, material};
 use crate::study::{Problem, Result};
+use fem_reference::time::{Equations, reference};
 
 /// Density, kg/m³, and gravity, m/s².
 pub const DENSITY: f64 = 1000.0;

@@ -8,8 +8,8 @@ use fem_model::simulation::Simulation;
 use fem_model::{Axis, Body, BodyMesh, Elastic, Integrator, Law, Material, Method, Selector, Volumetric};
 use serde::{Deserialize, Serialize};
 
-use crate::scenes::Elements;
-use crate::study::Result;
+use crate::Elements;
+use crate::Result;
 
 /// Poisson's ratios.
 pub const RATIOS: [f64; 6] = [0.0, 0.3, 0.45, 0.49, 0.499, 0.4999];
@@ -57,7 +57,7 @@ pub fn bend(elements: Elements, poisson: f64, cells: usize) -> Result<TipDeflect
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{LINEAR, WITHOUT_LOCKING};
+    use crate::{LINEAR, WITHOUT_LOCKING};
 
     #[test]
     fn a_nearly_incompressible_beam_locks() {

@@ -44,7 +44,7 @@ impl Conditioning {
 ///
 /// ```
 /// let mesh = fem_mesh::box_mesh([1.0, 1.0, 2.0], 3, fem_mesh::Pattern::Alternating)?;
-/// let found = fem_study::space::conditioning::conditioning(&mesh).unwrap();
+/// let found = fem_reference::space::conditioning::conditioning(&mesh).unwrap();
 /// assert!(found.axis == 2 && found.number() > 100.0);
 /// # Ok::<(), fem_mesh::MeshError>(())
 /// ```
@@ -79,7 +79,7 @@ fn clamped(mesh: &TetrahedralMesh, axis: Axis, below: f64) -> Result<Simulator<f
 }
 
 /// The largest eigenvalue of a positive definite operator on the free nodes, which `apply` adds to zero.
-pub(crate) fn largest_eigenvalue(system: &System, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
+pub fn largest_eigenvalue(system: &System, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
     let mut start = irregular(system.nodes());
     system.dirichlet.clear_constrained(&mut start);
     let mut product = |x: &[[f64; 3]], product: &mut [[f64; 3]]| {

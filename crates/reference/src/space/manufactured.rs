@@ -21,8 +21,8 @@ use fem_model::{
 use fem_output::StressError;
 use nalgebra::{DVector, Vector3};
 
+use crate::Result;
 use crate::space::points::points;
-use crate::study::Result;
 
 /// a, m: large enough that the neo-Hookean law is far from linear. The third belongs to the cube.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
