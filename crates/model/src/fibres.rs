@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::numbers::{check_finite, check_not_negative, check_positive, check_vector, problem};
+use crate::numbers::{check_direction, check_finite, check_not_negative, check_positive, check_vector, problem};
 use crate::{BodyMesh, Refusal};
 
 /// Parallel fibres in elements, beside the law of their material: Gasser, Ogden, Holzapfel, Hyperelastic Modelling of Arterial Layers with
@@ -70,9 +70,9 @@ impl FibreDirections {
     /// Refuses vectors without a direction, and numbers that are not finite.
     pub fn check(&self, table: &str) -> Result<(), Refusal> {
         match self {
-            Self::Same(direction) => check_direction(&format!("{table}.direction"), direction),
+            Self::Same(direction) => check_line(&format!("{table}.direction"), direction),
             Self::Around { axis, center, angle } => {
-                check_direction(&format!("{table}.around.axis"), axis)?;
+                check_line(&format!("{table}.around.axis"), axis)?;
                 check_vector(&format!("{table}.around.center"), center)?;
                 check_finite(&format!("{table}.around.angle"), &[*angle])
             }
@@ -129,8 +129,8 @@ impl FibreDirections {
 /// Rounding errors relative to lengths of an element.
 const NEAR: f64 = 1e-9;
 
-fn check_direction(field: &str, direction: &[f64; 3]) -> Result<(), Refusal> {
-    check_vector(field, direction)?;
+fn check_line(field: &str, direction: &[f64; 3]) -> Result<(), Refusal> {
+    check_direction(field, direction)?;
     if *direction == [0.0; 3] { problem(field, "is zero; give the direction of the line") } else { Ok(()) }
 }
 

@@ -231,6 +231,12 @@ const CASES: &[(&str, &str, &str)] = &[
         "[0.01, 1e70, 0.03]",
         "prescribed[0].displacement is too long to compute with; give a shorter",
     ),
+    (
+        "pressure = 50.0",
+        "pressure = 1e-61",
+        "traction[1].pressure is 1e-61, too small to compute with; give 0, or 1e-60",
+    ),
+    ("[0.01, 0.02, 0.03]", "[0, 1e-61, 0]", "prescribed[0].displacement is too short to compute with; give zeros, or"),
     ("nodes = [4]", "nodes = [1000]", "prescribed[1].nodes names node 1000; the mesh has nodes 0 to 44"),
     ("nodes = [4]", "nodes = [8]", "prescribed[1] moves y of node 8, and so does prescribed[0]; name each"),
     ("vertex = 7", "vertex = 45", "drag.vertex names node 45; the mesh has nodes 0 to 44"),

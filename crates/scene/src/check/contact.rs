@@ -2,7 +2,7 @@
 
 use crate::Scene;
 use crate::tables::PlaneTable;
-use fem_model::numbers::{check_not_negative, check_positive, check_vector, problem};
+use fem_model::numbers::{check_direction, check_not_negative, check_positive, check_vector, problem};
 use fem_model::{Integrator, Refusal};
 
 /// Returns the first problem of contact, the combinations with the method included.
@@ -28,7 +28,7 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Refusal> {
 fn check_plane(table: &str, plane: &PlaneTable, method: Integrator) -> Result<(), Refusal> {
     check_vector(&format!("{table}.point"), &plane.point)?;
     let normal = format!("{table}.normal");
-    check_vector(&normal, &plane.normal)?;
+    check_direction(&normal, &plane.normal)?;
     if plane.normal == [0.0; 3] {
         return problem(&normal, "is zero; give the direction from the plane to the body");
     }

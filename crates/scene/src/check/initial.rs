@@ -3,7 +3,7 @@
 use super::selector::check_one;
 use crate::Scene;
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
-use fem_model::numbers::{check_finite, check_vector, problem};
+use fem_model::numbers::{check_direction, check_finite, check_vector, problem};
 use fem_model::{Integrator, Refusal};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
@@ -31,7 +31,7 @@ fn check_velocity(table: &str, velocity: &InitialVelocityTable) -> Result<(), Re
 
 fn check_angular(field: &str, angular: &AngularVelocityTable) -> Result<(), Refusal> {
     let axis = format!("{field}.axis");
-    check_vector(&axis, &angular.axis)?;
+    check_direction(&axis, &angular.axis)?;
     if angular.axis == [0.0; 3] {
         return problem(&axis, "is zero; give the direction of the axis");
     }

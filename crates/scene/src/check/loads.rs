@@ -4,7 +4,7 @@ use super::selector::check_one;
 use crate::tables::{DragTable, SpringTable, TractionTable};
 use crate::{Pipeline, Scene};
 use fem_model::Refusal;
-use fem_model::numbers::{check_finite, check_not_negative, check_positive, check_vector, problem};
+use fem_model::numbers::{check_direction, check_finite, check_not_negative, check_positive, check_vector, problem};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     if let Some(gravity) = &scene.gravity {
@@ -54,7 +54,7 @@ fn check_drag(pipeline: Pipeline, drag: &DragTable) -> Result<(), Refusal> {
         return problem("drag.in_stiffness", text);
     }
     check_positive("drag.stiffness", drag.stiffness, " of N/m")?;
-    check_vector("drag.direction", &drag.direction)?;
+    check_direction("drag.direction", &drag.direction)?;
     if drag.direction == [0.0; 3] {
         return problem("drag.direction", "is zero; give the direction of the pull");
     }
