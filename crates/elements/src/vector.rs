@@ -48,8 +48,9 @@ pub fn norm<T: Float>(x: &[[T; 3]]) -> f64 {
 }
 
 /// a · b of one node, in double precision.
+#[inline]
 pub fn dot3<T: Float>(a: &[T; 3], b: &[T; 3]) -> f64 {
-    a.iter().zip(b).map(|(&a, &b)| a.as_f64() * b.as_f64()).sum()
+    a[0].as_f64() * b[0].as_f64() + a[1].as_f64() * b[1].as_f64() + a[2].as_f64() * b[2].as_f64()
 }
 
 /// Sum of the absolute values of all entries, Σ |xᵢ|.
