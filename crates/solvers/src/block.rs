@@ -70,28 +70,3 @@ pub(crate) fn invert_lower<T: Float, const D: usize>(L: &Block<T, D>) -> Block<T
     }
     inverse
 }
-
-#[cfg(test)]
-mod tests {
-    use super::invert;
-    use fem_model::simulation::Breakdown;
-
-    #[test]
-    fn a_block_times_its_inverse_is_the_identity() {
-        let A = [[4.0, 1.0, -0.5], [1.0, 3.0, 0.2], [-0.5, 0.2, 2.0]];
-        let inverse = invert(&A).unwrap();
-        for i in 0..3 {
-            for j in 0..3 {
-                let entry: f64 = (0..3).map(|k| A[i][k] * inverse[k][j]).sum();
-                assert!((entry - f64::from(u8::from(i == j))).abs() < 1e-15, "({i}, {j}): {entry}");
-            }
-        }
-    }
-
-    #[test]
-    fn blocks_that_are_not_positive_definite_are_refused() {
-        assert_eq!(invert(&[[-1.0, 0.0], [0.0, 1.0]]), Err(Breakdown::NotPositiveDefinite));
-        assert_eq!(invert(&[[1.0, 1.0], [1.0, 1.0]]), Err(Breakdown::Singular));
-        assert_eq!(invert(&[[f64::NAN, 0.0], [0.0, 1.0]]), Err(Breakdown::Singular));
-    }
-}

@@ -4,7 +4,6 @@
 //! definite.
 
 use super::direct::Reordered;
-use super::memory::available_memory;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_model::simulation::Breakdown;
@@ -19,11 +18,7 @@ pub(super) struct DirectFallback<T: Real> {
 }
 
 impl<T: Real> DirectFallback<T> {
-    pub(super) fn new() -> Self {
-        Self::within(available_memory())
-    }
-
-    /// The same with a limit of so many bytes.
+    /// A factor that may take so many bytes, if there is a limit.
     pub(super) fn within(limit: Option<usize>) -> Self {
         Self { limit, factor: None, is_in_use: false }
     }
@@ -62,20 +57,5 @@ fn without_verdict(breakdown: Breakdown) -> Breakdown {
     match breakdown {
         Breakdown::NotPositiveDefinite => Breakdown::NotConverged { residual: 1.0 },
         other => other,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::beam::Beam;
-    use fem_elements::sparse::Stored;
-
-    #[test]
-    fn without_memory_for_a_factor_nothing_is_known_but_that_the_iteration_has_not_converged() {
-        let beam = Beam::new(3, Stored::Lower);
-        let mut without_memory = DirectFallback::<f64>::within(Some(1000));
-        let outcome = without_memory.prepare(&beam.pattern, &beam.values(), Breakdown::NotPositiveDefinite);
-        assert_eq!(outcome, Err(Breakdown::NotConverged { residual: 1.0 }));
     }
 }

@@ -20,13 +20,9 @@ pub mod krylov;
 pub mod lanczos;
 mod memory;
 pub mod numbering;
-mod parts;
+pub mod parts;
 mod preconditioners;
 mod solver;
-
-#[cfg(test)]
-#[allow(dead_code)] // the tests in tests/ use the rest of it
-mod beam;
 
 pub use assembly::Assembly;
 #[cfg(feature = "gpu")]

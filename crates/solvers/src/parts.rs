@@ -7,8 +7,10 @@ use std::ops::Range;
 ///
 /// Parts depend on the matrix alone, so results do not depend on the number of threads.
 #[derive(Debug)]
-pub(crate) struct Part {
+pub struct Part {
+    /// Its rows, those of its halves first.
     pub rows: Range<usize>,
+    /// Its two halves, if it is divided.
     pub halves: Option<Box<[Part; 2]>>,
     /// Numbers of the parts in it, from 0 in the order of their own rows; its own is the last.
     pub numbers: Range<usize>,
@@ -52,12 +54,6 @@ impl Part {
         self.halves.as_ref().map_or(self.rows.start, |halves| halves[1].rows.start)
     }
 
-    /// Its number.
-    #[cfg(test)]
-    pub fn number(&self) -> usize {
-        self.numbers.end - 1
-    }
-
     /// Calls `visit` for each part, in the order of their numbers.
     pub fn for_each(&self, visit: &mut impl FnMut(&Part)) {
         for half in self.halves.iter().flat_map(|halves| halves.iter()) {
@@ -87,50 +83,4 @@ fn halves<'a>(rows: &Range<usize>, columns: &impl Fn(usize) -> &'a [u32]) -> Opt
         }
     }
     best.map(|(_, ends)| ends)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Part;
-    use crate::beam::Beam;
-    use fem_elements::sparse::{Pattern, Stored};
-
-    fn parts(pattern: &Pattern) -> Part {
-        Part::new(pattern.rows(), |row| &pattern.columns[pattern.row(row)])
-    }
-
-    fn assert_independent(part: &Part, pattern: &Pattern) {
-        let Some([a, b]) = part.halves.as_deref() else { return };
-        assert_eq!((a.rows.start, a.rows.end, b.rows.end), (part.rows.start, b.rows.start, part.own().start));
-        for row in b.rows.clone() {
-            assert!(pattern.columns[pattern.row(row)].iter().all(|&column| !a.rows.contains(&(column as usize))));
-        }
-        assert_eq!((a.numbers.end, b.numbers.end), (b.numbers.start, part.number()));
-        assert_independent(a, pattern);
-        assert_independent(b, pattern);
-    }
-
-    #[test]
-    fn a_large_beam_falls_into_halves_without_a_common_block_and_a_thin_separator() {
-        for stored in [Stored::Lower, Stored::Full] {
-            let beam = Beam::new(12, stored);
-            let part = parts(&beam.pattern);
-            assert_independent(&part, &beam.pattern);
-            assert!(part.numbers.len() >= 7, "{part:?}");
-            assert!(part.own().len() < 400, "{part:?}");
-        }
-    }
-
-    #[test]
-    fn a_small_beam_is_one_part() {
-        let pattern = Beam::new(4, Stored::Lower).pattern;
-        let part = parts(&pattern);
-        assert!(part.halves.is_none() && part.own() == (0..pattern.rows()));
-    }
-
-    #[test]
-    fn rows_that_are_all_coupled_are_one_part() {
-        let elements: Vec<[u32; 2]> = (1..4000).map(|row| [0, row]).collect();
-        assert!(parts(&Pattern::new(4000, &elements, Stored::Lower)).halves.is_none());
-    }
 }

@@ -18,6 +18,7 @@ use super::device;
 use super::direct::{Lu, SupernodalCholesky, cholesky_for_directions};
 use super::fallback::DirectFallback;
 use super::krylov::{LinearSystem, Workspace, conjugate_gradients, parts, product, refine};
+use super::memory::available_memory;
 use super::parts::Part;
 use super::preconditioners::{self, Identity};
 use fem_elements::sparse::{Block, Pattern, Stored};
@@ -99,9 +100,15 @@ impl<T: Real> Solver<T> {
 
     /// Factors the matrix where the iterative solver breaks down and a factor fits into memory: for a matrix that is positive definite unless
     /// the scene is wrong.
-    pub fn with_direct_fallback(mut self) -> Self {
+    pub fn with_direct_fallback(self) -> Self {
+        self.with_direct_fallback_within(available_memory())
+    }
+
+    /// The same where a factor takes no more than so many bytes, if there is a limit. Without a factor nothing tells whether the matrix is
+    /// positive definite, and a breakdown says that the iteration has not converged.
+    pub fn with_direct_fallback_within(mut self, limit: Option<usize>) -> Self {
         let has_factor = self.choice.stored() == Stored::Lower && self.choice.is_iterative();
-        self.fallback = has_factor.then(DirectFallback::new);
+        self.fallback = has_factor.then(|| DirectFallback::within(limit));
         self
     }
 

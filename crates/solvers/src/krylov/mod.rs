@@ -5,8 +5,7 @@ mod product;
 mod progress;
 mod refine;
 
-pub(super) use product::{parts, product};
-
 pub use cg::{Workspace, conjugate_gradients};
+pub use product::{parts, product};
 pub use progress::{LinearSystem, Progress, max_iterations};
 pub(super) use refine::refine;

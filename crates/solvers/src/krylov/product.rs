@@ -130,36 +130,3 @@ fn add_product<T: Real>(A: &Block<T, 3>, x: &[T; 3], y: &mut [T; 3]) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::beam::{Beam, random};
-    use fem_elements::sparse::{Block, Pattern, Stored};
-
-    fn product(pattern: &Pattern, values: &[Block<f64, 3>], x: &[[f64; 3]], y: &mut [[f64; 3]]) {
-        super::product(pattern, &super::parts(pattern), values, x, y);
-    }
-
-    #[test]
-    fn a_product_sums_blocks_times_nodes() {
-        let pattern = Pattern::new(2, &[[0, 1]], Stored::Full);
-        let scaled = |a: f64| [[a, 0.0, 0.0], [0.0, a, 0.0], [0.0, 0.0, a]];
-        let values = [[[1.0, 2.0, 0.0], [3.0, 4.0, 0.0], [0.0, 0.0, 1.0]], scaled(0.5), [[0.0; 3]; 3], scaled(2.0)];
-        let mut y = [[0.0; 3]; 2];
-        product(&pattern, &values, &[[1.0, 1.0, 3.0], [2.0, 4.0, -2.0]], &mut y);
-        assert_eq!(y, [[4.0, 9.0, 2.0], [4.0, 8.0, -4.0]]);
-    }
-
-    #[test]
-    fn full_and_lower_storage_give_the_same_product() {
-        let (full, lower) = (Beam::new(10, Stored::Full), Beam::new(10, Stored::Lower));
-        assert!(super::parts(&lower.pattern).halves.is_some());
-        let x = random::<f64>(full.pattern.rows(), 1);
-        let (mut y, mut z) = (vec![[0.0; 3]; x.len()], vec![[f64::NAN; 3]; x.len()]);
-        product(&full.pattern, &full.values(), &x, &mut y);
-        product(&lower.pattern, &lower.values(), &x, &mut z);
-        for (y, z) in y.as_flattened().iter().zip(z.as_flattened()) {
-            approx::assert_relative_eq!(y, z, max_relative = 1e-9, epsilon = 1e-6);
-        }
-    }
-}

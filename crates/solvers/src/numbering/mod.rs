@@ -1,14 +1,16 @@
 //! Node numbering of the engine: free nodes first, then the fully constrained ones, which have no row in any matrix.
 
 mod bisection;
+mod fill;
 mod fill_reducing;
 mod minimum_degree;
 mod parts;
 
 use nalgebra::Vector3;
 
+pub use fill::blocks_of_factor;
 use fill_reducing::fill_reducing;
-pub(crate) use minimum_degree::{Ties, minimum_degree};
+pub use minimum_degree::{Ties, minimum_degree};
 use parts::by_parts;
 
 /// The engine's numbers of a mesh's nodes.

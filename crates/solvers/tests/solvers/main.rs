@@ -1,18 +1,21 @@
-//! All solvers against each other, on matrices of beams.
+//! Properties of solvers and of their parts, most on matrices of beams. They are not in the package: it would be compiled once more.
 
 #![allow(non_snake_case)] // A, L and P are the names that the mathematics uses
-
-#[path = "../../src/beam.rs"]
-mod beam;
+#![allow(clippy::needless_range_loop)] // indices of matrices are the notation of the field
 
 mod all;
+mod beam;
+mod blocks;
+mod coarse;
 mod direct;
 mod orders;
+mod parts;
 mod slender;
+mod sweeps;
 
 use fem_elements::sparse::Block;
 use fem_elements::vector::{norm, subtract_from};
-use fem_solvers::{Real, Solver, SolverChoice, numbering};
+use fem_solvers::{Real, Solver, SolverChoice};
 
 use beam::Beam;
 

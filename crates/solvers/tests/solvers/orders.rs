@@ -1,7 +1,7 @@
 //! Orders of the nodes.
 
 use fem_mesh::{Pattern, box_mesh};
-use fem_solvers::numbering::{Numbering, Ordering};
+use fem_solvers::numbering::{Numbering, Ordering, Ties, blocks_of_factor, minimum_degree};
 
 #[test]
 fn every_node_has_one_number_and_constrained_nodes_come_last() {
@@ -31,4 +31,37 @@ fn dissection_ends_where_all_nodes_are_at_one_place() {
     let vertices = vec![nalgebra::Vector3::zeros(); 100];
     let elements: Vec<[usize; 4]> = (0..97).map(|i| [i, i + 1, i + 2, i + 3]).collect();
     assert_eq!(Numbering::new(Ordering::FillReducing, &vertices, &elements, &[false; 100]).mesh_node.len(), 100);
+}
+
+#[test]
+fn the_centre_of_a_star_comes_late_and_every_node_once() {
+    let mut adjacency = vec![vec![0]; 10];
+    adjacency[0] = (1..10).collect();
+    for ties in [Ties::Last, Ties::First] {
+        let mut ordering = minimum_degree(adjacency.clone(), ties);
+        assert!(ordering[8..].contains(&0), "{ordering:?}");
+        ordering.sort_unstable();
+        assert!(ordering.into_iter().eq(0..10));
+    }
+}
+
+/// Blocks of the factor of a matrix with these columns in each row.
+fn blocks(rows: &[&[u32]]) -> usize {
+    blocks_of_factor(rows.len(), |row| rows[row])
+}
+
+#[test]
+fn the_factor_of_a_chain_has_no_fill() {
+    assert_eq!(blocks(&[&[0, 1], &[0, 1, 2], &[1, 2, 3], &[2, 3]]), 7);
+}
+
+#[test]
+fn the_factor_of_a_star_is_full_if_its_centre_comes_first_and_has_no_fill_if_it_comes_last() {
+    assert_eq!(blocks(&[&[0, 1, 2, 3], &[0, 1], &[0, 2], &[0, 3]]), 10);
+    assert_eq!(blocks(&[&[0, 3], &[1, 3], &[2, 3], &[0, 1, 2, 3]]), 7);
+}
+
+#[test]
+fn the_factor_of_a_ring_couples_its_last_node_with_all_after_the_first() {
+    assert_eq!(blocks(&[&[0, 1, 3], &[0, 1, 2], &[1, 2, 3], &[0, 2, 3]]), 9);
 }

@@ -117,3 +117,15 @@ fn only_a_factor_says_that_a_matrix_is_not_positive_definite() {
     assert_eq!(solver.prepare(&bad), Err(Breakdown::NotPositiveDefinite));
     assert_eq!(solver.counters().fallbacks, 0);
 }
+
+#[test]
+fn without_memory_for_a_factor_nothing_is_known_but_that_the_iteration_has_not_converged() {
+    let choice = SolverChoice::Pcg(Preconditioner::Ssor);
+    let beam = Beam::new(3, choice.stored());
+    let bad = beam.scaled::<f64>(|element| if element % 5 == 0 { -1.5 } else { 1.0 }, 0.0);
+    let outcome = |limit: Option<usize>| {
+        Solver::new(choice, &beam.pattern, &beam.rest).with_direct_fallback_within(limit).prepare(&bad)
+    };
+    assert_eq!(outcome(Some(1000)), Err(Breakdown::NotConverged { residual: 1.0 }));
+    assert_eq!(outcome(None), Err(Breakdown::NotPositiveDefinite));
+}

@@ -297,6 +297,3 @@ fn slots(matrix: &Pattern, a: &[u32; 8], b: &[u32; 8]) -> [Slot; 64] {
         Slot { block: block.unwrap_or_else(|| unreachable!("the pattern couples these corners")) as u32, form }
     })
 }
-
-#[cfg(test)]
-mod tests;

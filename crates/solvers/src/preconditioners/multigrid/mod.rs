@@ -5,17 +5,16 @@
 mod aggregate;
 mod blocks;
 mod cycle;
-mod fill;
 mod level;
 mod motions;
 
 use blocks::Blocks;
-use fill::is_factor_cheap;
 use level::Level;
 use motions::DISPLACEMENTS;
 
 use super::single_precision_scale;
 use crate::direct::SupernodalCholesky;
+use crate::numbering::blocks_of_factor;
 use crate::{ApproximateInverse, Memory};
 use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
@@ -187,6 +186,12 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
         let own = size_of_val(self.sources.as_slice()) + size_of_val(self.diagonal.as_slice());
         self.fine.bytes() + levels + self.coarsest.bytes() + direct + own
     }
+}
+
+/// Returns true if the Cholesky factor of a coarse matrix has no more entries than the fine matrix, so that a substitution takes about as long as
+/// the sweeps of the fine level. That of a compact body soon has more; that of a slender one, which needs a fine coarsest level, has a narrow band.
+fn is_factor_cheap(coarse: &Blocks<6, 6, f64>, fine: &Blocks<3, 3, f64>) -> bool {
+    36 * blocks_of_factor(coarse.rows(), |row| coarse.row(row).0) <= 9 * fine.values.len()
 }
 
 /// Positions relative to the first node, scaled to coordinates of at most 1.

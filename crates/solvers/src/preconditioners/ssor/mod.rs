@@ -45,8 +45,8 @@ type Pair = [Row; 2];
 /// The preconditioned matrix, and the vectors of the iteration.
 pub(crate) struct Ssor {
     parts: Part,
-    pub(super) matrix: Scaled,
-    pub(super) coarse: Coarse,
+    matrix: Scaled,
+    coarse: Coarse,
     /// Restriction of residuals to the coarse grid.
     shares: Shares,
     x: Vec<Row>,

@@ -4,8 +4,6 @@ mod backward;
 mod forward;
 mod registers;
 mod start;
-#[cfg(test)]
-mod tests;
 
 pub use start::Start;
 

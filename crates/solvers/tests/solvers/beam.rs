@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::numbering::{Numbering, Ordering};
 use fem_elements::Real;
 use fem_elements::sparse::{Pattern, Stored};
 use fem_mesh::{TetrahedralMesh, box_mesh};
+use fem_solvers::numbering::{Numbering, Ordering};
 
 /// Young's modulus in Pa, Poisson's ratio, density in kg/m³.
 const MATERIAL: (f64, f64, f64) = (6e5, 0.4, 1000.0);
