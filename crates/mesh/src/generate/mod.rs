@@ -14,7 +14,7 @@ pub use crate::error::StuffingError;
 pub use cage::cage;
 pub use features::{Featured, keep_features};
 pub use solid::Solid;
-pub use stuffing::{stuff, stuff_graded};
+pub use stuffing::{Implicit, stuff, stuff_graded, stuff_implicit};
 
 /// Receives the share of the work that is done, from 0 to 1, a few hundred times at most.
 pub type Progress<'a> = &'a dyn Fn(f64);

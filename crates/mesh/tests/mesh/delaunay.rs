@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-use fem_mesh::generate::delaunay::{Delaunay, DelaunayError, tetrahedralize, triangulate};
+use fem_mesh::generate::delaunay::{Delaunay, DelaunayError, insertion_order, tetrahedralize, triangulate};
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -258,4 +258,35 @@ fn triangles_are_delaunay_and_fill_the_hull() {
         Ok(())
     });
     done.unwrap_or_else(|failure| panic!("{failure}"));
+}
+
+/// Indices of so many points of one place in the order of insertion, round by round.
+fn rounds(points: usize) -> Vec<Vec<usize>> {
+    let order = insertion_order(&vec![Vector3::zeros(); points]);
+    order.chunk_by(|a, b| a < b).map(<[usize]>::to_vec).collect()
+}
+
+#[test]
+fn neighbours_on_the_curve_are_neighbours_in_space() {
+    // The points of a cubic grid are in the last round, in the parts of space that the curve goes through first of all.
+    let last = rounds(2048).pop().unwrap();
+    let mut points = vec![Vector3::zeros(); 2048];
+    let cells = (0..512).map(|cell| [cell & 7, cell >> 3 & 7, cell >> 6].map(|x: u32| x));
+    last.iter().zip(cells).for_each(|(&index, cell)| points[index] = Vector3::from(cell.map(f64::from)));
+    let mut order = insertion_order(&points);
+    order.retain(|index| last[..512].contains(index));
+    assert_eq!(order.len(), 512);
+    for pair in order.windows(2) {
+        let distance = (points[pair[0]] - points[pair[1]]).abs().sum();
+        assert_eq!(distance, 1.0, "{} and {}", points[pair[0]], points[pair[1]]);
+    }
+}
+
+#[test]
+fn every_round_has_about_twice_the_points_of_the_one_before() {
+    let last = rounds(4096).pop().unwrap().len();
+    assert!((1900..2200).contains(&last), "{last}");
+    let mut order = rounds(100).concat();
+    order.sort_unstable();
+    assert_eq!(order, (0..100).collect::<Vec<_>>());
 }

@@ -47,3 +47,40 @@ fn the_radius_of_a_triangle_belongs_to_its_smallest_angle() {
     let angle = found[0].quantile(0.5).to_radians();
     assert_relative_eq!(found[2].quantile(0.5), 0.5 / angle.sin(), max_relative = 1e-13);
 }
+
+fn some() -> Distribution {
+    let values = [3.0, 1.0, 0.5, f64::NAN, 9.0, 1.5, f64::INFINITY];
+    Distribution::new("ratio", "", vec![0.0, 1.0, 2.0, 4.0], f64::INFINITY, values.into_iter())
+}
+
+#[test]
+fn a_quantile_is_a_value_that_the_share_does_not_exceed() {
+    let found = [0.0, 0.2, 0.21, 0.5, 1.0].map(|part| some().quantile(part));
+    assert_eq!(found, [0.5, 0.5, 1.0, 1.5, 9.0]);
+    let of = |values: &mut dyn Iterator<Item = f64>| Distribution::new("", "", vec![0.0], 1.0, values);
+    assert!(of(&mut std::iter::empty()).quantile(0.5).is_nan());
+    let many = of(&mut (1..=200).map(f64::from));
+    let found = [many.quantile(0.99), many.quantile(0.5), of(&mut [1.0].into_iter()).quantile(0.5)];
+    assert_eq!(found, [198.0, 100.0, 1.0]);
+}
+
+#[test]
+fn a_value_at_the_end_of_a_bin_belongs_to_the_next() {
+    assert_eq!(some().counts(), [1, 2, 1, 1]);
+    assert_eq!(some().counts().iter().sum::<usize>(), some().count());
+}
+
+#[test]
+fn histograms_have_a_line_for_each_bin_up_to_the_last_that_is_used() {
+    let text = some().to_string();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], "ratio");
+    assert_eq!(lines[1], format!("     0 … 1            1  20.00 %  {}", "█".repeat(20)));
+    assert_eq!(lines[4], format!("     4 …              1  20.00 %  {}", "█".repeat(20)));
+    // Whatever is not zero can be seen.
+    let values = std::iter::once(1.5).chain(std::iter::repeat_n(0.5, 9999));
+    let uneven = Distribution::new("", "", vec![0.0, 1.0], 2.0, values).to_string();
+    assert!(uneven.ends_with(" %  ▏\n"), "{uneven}");
+    let empty = Distribution::new("x", "°", vec![0.0, 1.0], 2.0, std::iter::empty());
+    assert_eq!(empty.to_string(), "x, °\n    no values\n");
+}

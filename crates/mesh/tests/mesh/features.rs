@@ -84,3 +84,19 @@ fn a_smooth_body_has_no_features_and_keeps_its_volume() {
     assert!((volume(&found.mesh) / volume(&mesh) - 1.0).abs() < 0.01);
     assert!(volume(&mesh) < 0.25 * PI);
 }
+
+#[test]
+fn a_closed_curve_without_corners_is_parted() {
+    // Two cones with one rim.
+    let n = 24;
+    let rim = |i: usize| (TAU * i as f64 / n as f64).sin_cos();
+    let mut vertices: Vec<Vector3<f64>> = (0..n).map(|i| Vector3::new(rim(i).1, rim(i).0, 0.0)).collect();
+    vertices.extend([Vector3::z(), -Vector3::z()]);
+    let sides = |i: usize| [[i, (i + 1) % n, n], [(i + 1) % n, i, n + 1]];
+    let surface = SurfaceMesh::new(vertices, (0..n).flat_map(sides).collect());
+    let found = keep_features(&stuff(&surface, 0.2).unwrap(), &surface, 60.0);
+    check(&found.mesh, "cones".as_ref()).unwrap();
+    assert!((found.length - 48.0 * (PI / 24.0).sin()).abs() < 1e-12, "{}", found.length);
+    // A path from a point to itself would be none.
+    assert!(found.kept > 0.95 * found.length, "{} of {}", found.kept, found.length);
+}

@@ -1,5 +1,6 @@
 //! Meshes: valid and damaged files, the check, the boundary, the box, refinement, and files for other programs.
 
+mod bodies_of_chance;
 mod boundaries;
 mod box_rule;
 mod boxes;
@@ -31,6 +32,7 @@ mod sets_kept;
 mod shapes;
 mod shipped;
 mod sides;
+mod solids;
 mod stuffing;
 mod surface_quality;
 mod surfaces;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use approx::assert_relative_eq;
 use fem_mesh::generate::delaunay::tetrahedralize;
 use fem_mesh::generate::odt::{Improved, improve_inside, improve_tetrahedra};
 use fem_mesh::generate::{Solid, stuff};
@@ -170,4 +171,31 @@ fn sets_keep_their_volumes_and_the_faces_edges_and_points_that_they_name() {
         let volume = |mesh: &TetrahedralMesh| volumes(&part(mesh)).iter().sum::<f64>();
         assert!((volume(&improved.mesh) / volume(&mesh) - 1.0).abs() < 1e-12, "{name}");
     }
+}
+
+fn one_tetrahedron() -> TetrahedralMesh {
+    let corners = [[0.1, 0.0, 0.2], [1.0, 0.1, 0.0], [0.3, 1.2, 0.1], [0.2, 0.4, 0.9]].map(Vector3::from);
+    TetrahedralMesh::new(corners.to_vec(), vec![[0, 1, 2, 3]])
+}
+
+#[test]
+fn the_measures_are_those_of_the_mesh_quality() {
+    let found = improve_tetrahedra(&one_tetrahedron(), 0, &|_| ()).smoothing[0];
+    let known = quality(&one_tetrahedron());
+    assert_relative_eq!(found.radius_ratio, known.radius_ratio.value, max_relative = 1e-13);
+    let [smallest, largest] = known.dihedral_angles.map(|angle| angle.value);
+    assert_relative_eq!(found.angles[0], smallest, max_relative = 1e-12);
+    assert_relative_eq!(found.largest_angle, largest, max_relative = 1e-12);
+}
+
+#[test]
+fn the_energy_is_a_quarter_of_the_stars_volumes_times_the_squares_less_the_integral_of_the_square() {
+    // The integral of |x|² over a tetrahedron by the rule with the vertices and the centroid of degree 2: V (Σ x²/20 + 16/20 c²).
+    let mesh = one_tetrahedron();
+    let (x, volume) = (&mesh.vertices, volumes(&mesh)[0]);
+    let squares: f64 = x.iter().map(Vector3::norm_squared).sum();
+    let centroid = x.iter().sum::<Vector3<f64>>() / 4.0;
+    let integral = volume * (squares / 20.0 + 0.8 * centroid.norm_squared());
+    let energy = improve_tetrahedra(&mesh, 0, &|_| ()).smoothing[0].energy;
+    assert_relative_eq!(energy, volume * squares / 4.0 - integral, max_relative = 1e-13);
 }

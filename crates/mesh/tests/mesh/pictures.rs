@@ -1,5 +1,6 @@
 //! Meshes of the shipped pictures, and of pictures that are hard to mesh.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use fem_mesh::generate::picture::{
@@ -240,6 +241,52 @@ fn a_picture_without_region_and_edges_that_do_not_fit_are_refused() {
     }
     let tiled = Picture { width: 60, height: 60 * 200, coverage: noise.coverage.repeat(200) };
     assert!(matches!(refused(&tiled, 0.1, 1.0), PictureMeshError::TooIntricate { .. }));
+}
+
+/// The square of the distance of a point from the centre of the circle through three others, over that of the radius.
+fn from_circle([a, b, c]: [Vector2<f64>; 3], point: Vector2<f64>) -> f64 {
+    let [ab, ac] = [b - a, c - a];
+    let normal = |x: Vector2<f64>| Vector2::new(-x.y, x.x);
+    let centre = (normal(ac) * ab.norm_squared() - normal(ab) * ac.norm_squared()) / (-2.0 * ab.perp(&ac));
+    (a + centre - point).norm_squared() / centre.norm_squared()
+}
+
+#[test]
+fn the_triangulation_is_delaunay_and_fills_the_region_with_the_triangles_of_the_lattice() {
+    let picture = drawn(200, 200, |x, y| (10.0..190.0).contains(&x) && (x - 80.0).hypot(y - 110.0) > 30.0);
+    let found = mesh_picture(&picture, FromPicture { edge: 0.04, height: 1.0, improve: 0 }).unwrap();
+    let mesh = &found.mesh;
+    assert_positive(mesh);
+    let at = |i: usize| mesh.vertices[i];
+    let sides = boundary(mesh);
+    assert_eq!(mesh.elements.len(), 2 * mesh.vertices.len() - sides.len(), "Euler's formula for a region with a hole");
+    let area: f64 = mesh.elements.iter().map(|&[a, b, c]| 0.5 * (at(b) - at(a)).perp(&(at(c) - at(a)))).sum();
+    let enclosed: f64 = sides.iter().map(|&[a, b]| 0.5 * at(a).perp(&at(b))).sum();
+    assert!((area / enclosed - 1.0).abs() < 1e-12, "{area} {enclosed}");
+    let opposite = |&[a, b, c]: &[usize; 3]| [([a, b], c), ([b, c], a), ([c, a], b)];
+    let beyond: HashMap<[usize; 2], usize> = mesh.elements.iter().flat_map(opposite).collect();
+    let mut regular = 0;
+    for element in &mesh.elements {
+        let corners = element.map(at);
+        for [a, b] in [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|i| element[i])) {
+            if let Some(&corner) = beyond.get(&[b, a]) {
+                assert!(from_circle(corners, at(corner)) > 1.0 - 1e-9, "{element:?} and {corner}");
+            }
+        }
+        let lengths = [[0, 1], [1, 2], [2, 0]].map(|[i, j]: [usize; 2]| (corners[j] - corners[i]).norm());
+        regular += usize::from(lengths.iter().all(|length| (length / lengths[0] - 1.0).abs() < 1e-9));
+    }
+    assert!(regular > 300, "{regular} of {}", mesh.elements.len());
+}
+
+#[test]
+fn a_lattice_without_sites_leaves_the_region_to_its_boundary() {
+    for size in [4, 12] {
+        let found = meshed(&drawn(size, size, |_, _| true), 1.0);
+        assert_positive(&found.mesh);
+        assert_eq!(euler_characteristic(&found.mesh), 1);
+        assert_eq!(boundary(&found.mesh).len(), found.mesh.vertices.len(), "{size} pixels");
+    }
 }
 
 fn sample(name: &str) -> PathBuf {

@@ -8,7 +8,9 @@ use crate::boxes::Bounds;
 /// Bits of each coordinate on the curve.
 const BITS: u32 = 20;
 
-/// Indices of the points in the order of insertion. The rounds are a fixed function of the indices, so a mesh is reproducible.
+/// Indices of points, m, in the order in which [`tetrahedralize`](super::tetrahedralize) inserts them: in rounds, the last of which has about half of
+/// them, the one before a quarter, and so on. In a round, points that follow each other are close to each other, and points at one place keep their
+/// order. The rounds are a fixed function of the indices, so a mesh is reproducible.
 pub fn insertion_order(points: &[Vector3<f64>]) -> Vec<usize> {
     let Bounds { least, largest } = Bounds::of(points);
     let size = (largest - least).max();
@@ -59,30 +61,4 @@ fn on_curve(mut x: [u32; 3]) -> u64 {
     }
     let x = x.map(|x| x ^ gray);
     (0..BITS).rev().fold(0, |sum, bit| x.iter().fold(sum, |sum, x| sum << 1 | u64::from(x >> bit & 1)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{insertion_order, on_curve, round};
-    use nalgebra::Vector3;
-
-    #[test]
-    fn neighbours_on_the_curve_are_neighbours_in_space() {
-        let mut cells: Vec<[u32; 3]> =
-            (0..512).map(|cell| [cell & 7, cell >> 3 & 7, cell >> 6].map(|x: u32| x)).collect();
-        cells.sort_by_key(|cell| on_curve(*cell));
-        for pair in cells.windows(2) {
-            let distance: u32 = (0..3).map(|i| pair[0][i].abs_diff(pair[1][i])).sum();
-            assert_eq!(distance, 1, "{pair:?}");
-        }
-    }
-
-    #[test]
-    fn every_round_has_about_twice_the_points_of_the_one_before() {
-        let last = (0..4096).filter(|&index| round(index) == 64).count();
-        assert!((1900..2200).contains(&last), "{last}");
-        let mut order = insertion_order(&vec![Vector3::zeros(); 100]);
-        order.sort_unstable();
-        assert_eq!(order, (0..100).collect::<Vec<_>>());
-    }
 }

@@ -15,6 +15,7 @@ use thiserror::Error;
 
 use crate::Mesh;
 
+pub use hilbert::insertion_order;
 pub(crate) use plane::triangulate_with;
 pub use plane::{triangulate, triangulate_region};
 pub(crate) use refinement::{Bounds, cut_encroached, refine};

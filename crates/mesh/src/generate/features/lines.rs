@@ -172,35 +172,3 @@ fn parted(points: Vec<Vector3<f64>>) -> Vec<Curve> {
     let cut = |part: usize| part * (whole - 1) / PARTS_OF_LOOP;
     (0..PARTS_OF_LOOP).map(|part| Curve::new(points[cut(part)..=cut(part + 1)].to_vec())).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Pattern, boundary, box_mesh};
-
-    #[test]
-    fn a_cube_has_twelve_curves_six_patches_and_eight_corners() {
-        let mesh = box_mesh([2.0, 1.0, 1.0], 3, Pattern::Alternating).unwrap();
-        let features = Features::new(&SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh)), 40.0, 0.5);
-        assert_eq!((features.curves.len(), features.patches.len()), (12, 6));
-        let length: f64 = features.curves.iter().map(Curve::length).sum();
-        assert!((length - 16.0).abs() < 1e-12, "{length}");
-        let middle = features.curves[0].at(0.5);
-        let [a, b] = features.curves[0].ends();
-        assert!((middle - 0.5 * (a + b)).norm() < 1e-12);
-    }
-
-    #[test]
-    fn a_closed_curve_without_corners_is_parted() {
-        // Two cones with one rim.
-        let n = 24;
-        let rim = |i: usize| (std::f64::consts::TAU * i as f64 / n as f64).sin_cos();
-        let mut vertices: Vec<Vector3<f64>> = (0..n).map(|i| Vector3::new(rim(i).1, rim(i).0, 0.0)).collect();
-        vertices.extend([Vector3::z(), -Vector3::z()]);
-        let sides = |i: usize| [[i, (i + 1) % n, n], [(i + 1) % n, i, n + 1]];
-        let features = Features::new(&SurfaceMesh::new(vertices, (0..n).flat_map(sides).collect()), 60.0, 0.5);
-        assert_eq!((features.curves.len(), features.patches.len()), (3, 2));
-        let length: f64 = features.curves.iter().map(Curve::length).sum();
-        assert!((length - 48.0 * (std::f64::consts::PI / 24.0).sin()).abs() < 1e-12, "{length}");
-    }
-}

@@ -223,36 +223,3 @@ fn meets_box(node: &Node, from: &Vector3<f64>, way: &Vector3<f64>) -> bool {
     // A little more than the box, so that rounding misses no triangle in its sides.
     enter <= leave + 1e-9
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Vectors with coordinates from −1 to 1, Marsaglia, Xorshift RNGs (2003).
-    pub(super) fn random(seed: u64) -> impl FnMut() -> Vector3<f64> {
-        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        move || {
-            Vector3::from_fn(|_, _| {
-                state ^= state << 13;
-                state ^= state >> 7;
-                state ^= state << 17;
-                (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-            })
-        }
-    }
-
-    #[test]
-    fn the_tree_finds_the_closest_triangle() {
-        let mut next = random(7);
-        let vertices: Vec<Vector3<f64>> = (0..300).map(|_| next()).collect();
-        let elements: Vec<[usize; 3]> = (0..100).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let solid = Solid::new(&SurfaceMesh::new(vertices, elements));
-        for _ in 0..200 {
-            let point = next() * 2.0;
-            let all = solid.triangles.iter().map(|corners| (closest_of_triangle(corners, &point) - point).norm());
-            let found = (solid.closest(&point).unwrap() - point).norm();
-            assert_eq!(found, all.fold(f64::INFINITY, f64::min));
-        }
-        assert_eq!(Solid::new(&SurfaceMesh::default()).closest(&Vector3::zeros()), None);
-    }
-}

@@ -51,29 +51,3 @@ pub fn closest_of_triangle(&[a, b, c]: &[Vector3<f64>; 3], point: &Vector3<f64>)
         if sum > 0.0 { a + u * (at_b / sum) + v * (at_c / sum) } else { a }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::tests::random;
-    use super::*;
-
-    #[test]
-    fn no_point_of_a_triangle_is_closer_than_the_closest() {
-        let mut next = random(4);
-        for _ in 0..300 {
-            let corners = [next(), next(), next()];
-            let point = next() * 2.0;
-            let found = closest_of_triangle(&corners, &point);
-            let least = (found - point).norm();
-            let [a, b, c] = corners;
-            let mut sampled = f64::INFINITY;
-            for i in 0..=60 {
-                for j in 0..=60 - i {
-                    let (u, v) = (f64::from(i) / 60.0, f64::from(j) / 60.0);
-                    sampled = sampled.min((a + (b - a) * u + (c - a) * v - point).norm());
-                }
-            }
-            assert!(least <= sampled + 1e-12 && sampled <= least + 0.06, "{corners:?} {point:?}: {least} {sampled}");
-        }
-    }
-}

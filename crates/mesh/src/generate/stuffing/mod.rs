@@ -11,6 +11,8 @@ pub(super) mod stencils;
 
 use std::cell::Cell;
 
+use nalgebra::Vector3;
+
 use super::Progress;
 use super::solid::Solid;
 use crate::error::StuffingError;
@@ -48,7 +50,37 @@ pub fn stuff_graded(
     doublings: usize,
     progress: Progress,
 ) -> Result<TetrahedralMesh, StuffingError> {
-    let (solid, mut lattice) = lattice_around(surface, edge, 0.0)?;
+    let (solid, lattice) = lattice_around(surface, edge, 0.0)?;
+    let body = Implicit { is_inside: &|x| solid.contains(x), exit: &|inside, outside| solid.exit(inside, outside) };
+    let [least, largest] = solid.bounds();
+    let empty = StuffingError::Empty { edge, size: (largest - least).into() };
+    fill(lattice, doublings, &body, progress).ok_or(empty)
+}
+
+/// A body that functions describe, such as the part of space where one is positive.
+pub struct Implicit<'a> {
+    /// Returns true if a point, m, lies inside.
+    pub is_inside: &'a dyn Fn(&Vector3<f64>) -> bool,
+    /// The part, from 0 to 1, of the way from a point inside to one outside that lies in the body.
+    pub exit: &'a dyn Fn(&Vector3<f64>, &Vector3<f64>) -> f64,
+}
+
+/// Tetrahedra as those of [`stuff_graded`] in the part of a body between the smallest and the largest coordinates of a box, m.
+///
+/// # Errors
+/// As [`stuff`].
+pub fn stuff_implicit(
+    body: &Implicit,
+    bounds: [Vector3<f64>; 2],
+    edge: f64,
+    doublings: usize,
+) -> Result<TetrahedralMesh, StuffingError> {
+    let empty = StuffingError::Empty { edge, size: (bounds[1] - bounds[0]).into() };
+    fill(lattice_of(bounds, edge)?, doublings, body, &|_| ()).ok_or(empty)
+}
+
+/// The mesh of the part of a body in a lattice; nothing if it is empty.
+fn fill(mut lattice: Lattice, doublings: usize, body: &Implicit, progress: Progress) -> Option<TetrahedralMesh> {
     let (nodes, known) = (lattice.places().count(), Cell::new(0));
     let told_after = nodes.div_ceil(TOLD);
     lattice.find_signs(|point| {
@@ -56,18 +88,14 @@ pub fn stuff_graded(
         if done % told_after == 0 {
             progress(SIGNS * done as f64 / nodes as f64);
         }
-        solid.contains(point)
+        (body.is_inside)(point)
     });
     let octree = Octree::graded(&lattice, doublings);
-    lattice.cut(|_, [inside, outside]| solid.exit(inside, outside));
+    lattice.cut(|_, [inside, outside]| (body.exit)(inside, outside));
     lattice.warp();
     progress(0.5 * (1.0 + SIGNS));
     let mesh = stencils::fill(&lattice, &octree);
-    if mesh.elements.is_empty() {
-        let [least, largest] = solid.bounds();
-        return Err(StuffingError::Empty { edge, size: (largest - least).into() });
-    }
-    Ok(mesh)
+    (!mesh.elements.is_empty()).then_some(mesh)
 }
 
 /// The solid of a surface, and a lattice with edges of about `edge` m around it, with a margin (m) on every side.
@@ -75,132 +103,21 @@ pub(super) fn lattice_around(surface: &SurfaceMesh, edge: f64, margin: f64) -> R
     if let Some(vertex) = surface.vertices.iter().position(|x| !x.iter().all(|x| x.is_finite())) {
         return Err(StuffingError::NotFinite { vertex });
     }
+    let solid = Solid::new(surface);
+    let [least, largest] = solid.bounds();
+    let lattice = lattice_of([least.add_scalar(-margin), largest.add_scalar(margin)], edge)?;
+    Ok((solid, lattice))
+}
+
+/// A lattice with edges of about `edge` m around a box.
+fn lattice_of([least, largest]: [Vector3<f64>; 2], edge: f64) -> Result<Lattice, StuffingError> {
     if !(edge > 0.0 && edge.is_finite()) {
         return Err(StuffingError::Edge { edge });
     }
-    let solid = Solid::new(surface);
-    let [least, largest] = solid.bounds();
-    let (least, largest) = (least.add_scalar(-margin), largest.add_scalar(margin));
     let side = edge / MEAN_EDGE;
     let count = (largest - least).iter().map(|size| size / side + 3.0).product::<f64>() * 12.0;
     if !(count <= MOST) {
         return Err(StuffingError::TooFine { edge, count, most: MOST });
     }
-    Ok((solid, Lattice::around([least, largest], side)))
-}
-
-#[cfg(test)]
-mod tests {
-    use std::cell::Cell;
-
-    use nalgebra::Vector3;
-
-    use super::lattice::Lattice;
-    use super::octree::Octree;
-    use super::stencils;
-    use crate::{Mesh, SurfaceMesh, boundary, check, quality, surface_quality};
-
-    fn random(seed: u64) -> impl Fn() -> f64 {
-        let random = Cell::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-        move || {
-            let mut x = random.get();
-            x ^= x << 13;
-            x ^= x >> 7;
-            x ^= x << 17;
-            random.set(x);
-            (x >> 11) as f64 / (1_u64 << 53) as f64
-        }
-    }
-
-    /// The mesh of a lattice with random signs of its nodes and random cuts of its edges, which reach every case of the stencils.
-    fn by_chance(seed: u64, inside: f64, cubes: f64) -> Mesh<3, 4> {
-        let next = random(seed);
-        let mut lattice = Lattice::around([Vector3::zeros(), Vector3::repeat(cubes)], 1.0);
-        let in_box = |x: &Vector3<f64>| x.iter().all(|x| (0.0..=cubes).contains(x));
-        lattice.find_signs(|x| in_box(x) && next() < inside);
-        lattice.cut(|_, _| next());
-        lattice.warp();
-        stencils::fill(&lattice, &Octree::uniform(lattice.cubes()))
-    }
-
-    /// The mesh of a graded lattice around a box with random holes and a ragged surface, and that of the uniform one.
-    fn graded_and_uniform(seed: u64) -> [Mesh<3, 4>; 2] {
-        let next = random(seed);
-        let holes: Vec<Vector3<f64>> = (0..3).map(|_| Vector3::from_fn(|_, _| (33.0 * next()).round())).collect();
-        let mut lattice = Lattice::around([Vector3::zeros(), Vector3::new(33.0, 27.0, 20.0)], 1.0);
-        lattice.find_signs(|x| {
-            let depth = (0..3).map(|i| x[i].min([33.0, 27.0, 20.0][i] - x[i])).fold(f64::INFINITY, f64::min);
-            let in_hole = holes.iter().any(|hole| (hole - x).norm() < 2.5);
-            depth > 0.0 && !in_hole && (depth > 1.5 || next() < 0.6)
-        });
-        let octree = Octree::graded(&lattice, 3);
-        lattice.cut(|_, _| next());
-        lattice.warp();
-        [octree, Octree::uniform(lattice.cubes())].map(|octree| stencils::fill(&lattice, &octree))
-    }
-
-    #[test]
-    fn a_graded_lattice_keeps_the_bounds_and_the_boundary_of_the_uniform_one() {
-        for seed in 1..=4 {
-            let [graded, uniform] = graded_and_uniform(seed);
-            check(&graded, "graded".as_ref()).unwrap();
-            let angles = quality(&graded).dihedral_angles.map(|angle| angle.value);
-            assert!(angles[0] >= 10.7 && angles[1] <= 164.8, "seed {seed}: {angles:?}");
-            let surface = |mesh: &Mesh<3, 4>| {
-                let place = |face: [usize; 3]| {
-                    let mut places = face.map(|i| mesh.vertices[i].map(f64::to_bits).into());
-                    places.sort_unstable();
-                    places
-                };
-                let mut faces: Vec<[[u64; 3]; 3]> = boundary(mesh).into_iter().map(place).collect();
-                faces.sort_unstable();
-                faces
-            };
-            assert!(surface(&graded) == surface(&uniform), "seed {seed}");
-            assert!(10 * graded.elements.len() < 9 * uniform.elements.len(), "seed {seed}: {}", graded.elements.len());
-        }
-    }
-
-    #[test]
-    fn tetrahedra_between_cubes_of_different_sizes_have_angles_from_45_to_120_degrees() {
-        let mut lattice = Lattice::around([Vector3::zeros(), Vector3::repeat(30.0)], 1.0);
-        lattice.find_signs(|x| x.iter().all(|x| (0.5..29.5).contains(x)));
-        let octree = Octree::graded(&lattice, 3);
-        let (mut vertices, mut elements) = (Vec::new(), Vec::new());
-        octree.tetrahedra(|places| {
-            if places.iter().flatten().all(|x| (8..56).contains(x)) {
-                elements.push([0, 1, 2, 3].map(|i| vertices.len() + i));
-                vertices.extend(places.map(|place| lattice.undeformed(place)));
-            }
-        });
-        for element in &mut elements {
-            if crate::signed_volume(element.map(|i| vertices[i])) < 0.0 {
-                element.swap(2, 3);
-            }
-        }
-        let angles = quality(&Mesh::new(vertices, elements)).dihedral_angles.map(|angle| angle.value);
-        assert!((angles[0] - 45.0).abs() < 1e-9 && (angles[1] - 120.0).abs() < 1e-9, "{angles:?}");
-    }
-
-    #[test]
-    fn dihedral_angles_keep_their_bounds_for_any_signs_and_cuts() {
-        let mut range = [f64::INFINITY, 0.0_f64];
-        for seed in 1..40 {
-            let mesh = by_chance(seed, [0.35, 0.5, 0.8][seed as usize % 3], 8.0);
-            check(&mesh, "chance".as_ref()).unwrap();
-            let angles = quality(&mesh).dihedral_angles.map(|angle| angle.value);
-            range = [range[0].min(angles[0]), range[1].max(angles[1])];
-        }
-        assert!(range[0] >= 10.7 && range[1] <= 164.8, "{range:?}");
-    }
-
-    #[test]
-    fn neighbouring_tetrahedra_share_whole_faces_so_that_the_boundary_has_no_open_edge() {
-        for seed in 1..10 {
-            let mesh = by_chance(seed, 0.5, 6.0);
-            let surface = SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh));
-            let found = surface_quality(&surface);
-            assert_eq!((found.open_edges, found.flipped_edges), (0, 0));
-        }
-    }
+    Ok(Lattice::around([least, largest], side))
 }
