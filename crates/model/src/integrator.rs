@@ -270,20 +270,3 @@ impl Integrator {
         list[place.map_or(0, |place| (place + 1) % list.len())]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_table_of_facts_is_in_the_order_of_the_methods() {
-        for (place, (integrator, facts)) in Integrator::FACTS.into_iter().enumerate() {
-            assert_eq!(integrator as usize, place, "{}", facts.name);
-            let name: String = format!("{integrator:?}").chars().fold(String::new(), |name, c| {
-                let gap = if c.is_uppercase() && !name.is_empty() { "_" } else { "" };
-                name + gap + &c.to_lowercase().to_string()
-            });
-            assert_eq!(facts.name, name);
-        }
-    }
-}

@@ -104,14 +104,3 @@ impl Preconditioner {
         Self::FACTS[self as usize].2
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_tables_of_facts_are_in_the_order_of_the_variants() {
-        assert!(SolverKind::FACTS.iter().enumerate().all(|(place, (kind, ..))| *kind as usize == place));
-        assert!(Preconditioner::FACTS.iter().enumerate().all(|(place, (kind, ..))| *kind as usize == place));
-    }
-}

@@ -88,6 +88,3 @@ impl Element {
         self.shape_functions.iter().map(|function| function.gradient(corners, L)).collect()
     }
 }
-
-#[cfg(test)]
-mod tests;

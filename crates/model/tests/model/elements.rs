@@ -3,10 +3,10 @@
 use std::collections::{BTreeSet, HashMap};
 
 use fem_mesh::{Pattern, box_mesh, rectangle_mesh};
-use nalgebra::Matrix3;
-
-use super::*;
-use crate::BodyMesh;
+use fem_model::element::Element;
+use fem_model::simulation::Shape;
+use fem_model::{BodyMesh, with_elements};
+use nalgebra::{Matrix3, Vector3};
 
 /// An irregular body of these elements.
 fn body(element: &Element) -> BodyMesh {
@@ -46,7 +46,7 @@ fn no_two_elements_have_the_same_dimension_and_order_and_each_has_its_loops() {
     for element in Element::ALL {
         let mesh = body(element);
         assert_eq!(mesh.element(), element);
-        assert_eq!(crate::with_elements!(&mesh, elements => elements[0].to_vec()), mesh.nodes_of(0));
+        assert_eq!(with_elements!(&mesh, elements => elements[0].to_vec()), mesh.nodes_of(0));
         assert_eq!(mesh.nodes_of(0).len(), element.nodes());
     }
 }
@@ -160,7 +160,7 @@ fn the_faces_of_a_body_are_its_boundary() {
         let expected = if element.dimension == 2 { 0.1 * 6.0 } else { 10.0 };
         assert!((found - expected).abs() < 1e-12, "{}: {found}", element.name);
         assert!(faces.iter().all(|face| face.len() == element.faces[0].len()));
-        let shape = crate::simulation::Shape { boundary: mesh.surface(), mesh, display: None, picture: None };
+        let shape = Shape { boundary: mesh.surface(), mesh, display: None, picture: None };
         assert_eq!(shape.faces(), faces);
     }
 }
