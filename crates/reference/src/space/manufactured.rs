@@ -115,8 +115,8 @@ impl Exact {
         self.amplitude(i) * PI * PI * (0..self.dimensions).map(factor).product::<f64>()
     }
 
-    /// −Div P, N/m³.
-    fn body_force(self, law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
+    /// −Div P of a law, N/m³.
+    pub fn body_force(self, law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
         let H = double::law(law).derivative(&self.gradient(X));
         let mut force = [0.0; 3];
         for (i, force) in force.iter_mut().enumerate() {
@@ -223,84 +223,4 @@ fn errors(mesh: &BodyMesh, u: &[[f64; 3]], exact: Exact) -> (f64, f64) {
         }
     }
     ((l2 / size).sqrt(), (h1 / slope).sqrt())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_body_force_is_minus_the_divergence_of_the_stress() {
-        let all = ["linear", "neo_hookean"].into_iter().flat_map(|model| Element::ALL.map(|element| (model, element)));
-        for (model, element) in all {
-            let law = AnyLaw::<f64>::new(&fixed_body(model, element, 1).unwrap().material).unwrap();
-            let exact = Exact { dimensions: element.dimension };
-            let X = Vector3::new(0.31, 0.62, 0.27);
-            let stress = |X: &Vector3<f64>| double::law(&law).stress(&exact.gradient(X));
-            let h = 1e-5;
-            for (i, force) in exact.body_force(&law, &X).into_iter().enumerate() {
-                let slope = |j: usize| {
-                    let step = Vector3::ith(j, h);
-                    (stress(&(X + step))[i][j] - stress(&(X - step))[i][j]) / (2.0 * h)
-                };
-                let divergence: f64 = (0..3).map(slope).sum();
-                assert!((force + divergence).abs() <= 1e-6 * force.abs(), "{model:?}: {force} {divergence}");
-            }
-        }
-    }
-
-    #[test]
-    fn errors_converge_under_refinement() {
-        for model in ["linear", "neo_hookean"] {
-            let tetrahedra = Element::ALL.into_iter().find(|element| element.dimension == 3).unwrap();
-            let [coarse, fine] = [4, 8].map(|cells| solve(model, tetrahedra, cells).unwrap());
-            assert!(coarse.l2 / fine.l2 > 3.0 && coarse.h1 / fine.h1 > 1.75, "{} {}", coarse.l2, fine.l2);
-        }
-    }
-
-    #[test]
-    fn elements_have_the_orders_of_their_polynomials() {
-        for element in Element::ALL.into_iter().filter(|element| (element.dimension, element.order) != (3, 1)) {
-            let models = if element.dimension == 2 { &["neo_hookean"][..] } else { &["linear", "neo_hookean"] };
-            for model in models {
-                let cells = if element.dimension == 2 { [8, 16] } else { [4, 8] };
-                let [coarse, fine] = cells.map(|cells| solve(model, element, cells).unwrap());
-                let [l2, h1] = [coarse.l2 / fine.l2, coarse.h1 / fine.h1].map(f64::log2);
-                let [in_l2, in_h1] = orders(element);
-                assert!((l2 - in_l2).abs() < 0.1 && (h1 - in_h1).abs() < 0.1, "{} {model}: {l2} {h1}", element.name);
-            }
-        }
-    }
-
-    /// The error of the stresses of a linear law in its energy norm, as a part of the norm of the stresses.
-    fn true_error(solved: &Solved, exact: Exact) -> f64 {
-        let law = AnyLaw::<f64>::new(&solved.material).unwrap();
-        let energy = |G: &Tensor<f64>| double::law(&law).energy(G);
-        let (mesh, points) = (&solved.mesh, points(&solved.mesh));
-        let [mut error, mut size] = [0.0; 2];
-        for (element, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
-            for point in &points {
-                let is = exact.gradient(&point.place(mesh, nodes));
-                let u = |node: usize| solved.q.fixed_rows::<3>(3 * node) - mesh.vertices()[node];
-                let found = mesh.displacement_gradient_at(element, &point.barycentric, u);
-                error += volume * point.weight * energy(&from_fn(|i, j| found[(i, j)] - is[i][j]));
-                size += volume * point.weight * energy(&is);
-            }
-        }
-        (error / size).sqrt()
-    }
-
-    #[test]
-    fn the_estimated_error_of_the_stresses_approaches_the_true_one() {
-        for element in Element::ALL {
-            let exact = Exact { dimensions: element.dimension };
-            let cells = if element.dimension == 2 { [8, 16] } else { [6, 12] };
-            let [coarse, fine] = cells.map(|cells| {
-                let solved = solve("linear", element, cells).unwrap();
-                solved.stress_error.as_ref().unwrap().relative / true_error(&solved, exact)
-            });
-            let is_near = (0.8..1.2).contains(&coarse) && (0.95..1.05).contains(&fine);
-            assert!(is_near, "{}: {coarse} {fine}", element.name);
-        }
-    }
 }

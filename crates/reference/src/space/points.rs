@@ -67,30 +67,3 @@ fn compositions(total: u32, parts: usize) -> Vec<Vec<u32>> {
 fn factorial(n: u32) -> f64 {
     (1..=n).map(f64::from).product()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn polynomials_up_to_the_degree_are_integrated_exactly() {
-        // ∫ x^a y^b z^c over the unit tetrahedron, over its volume, is 6 a! b! c! / (a + b + c + 3)!.
-        for s in 0..=4 {
-            let (solid, flat) = (rule(3, s), rule(2, s));
-            for (a, b, c) in [(0, 0, 0), (1, 0, 0), (2, 1, 0), (2, 2, 1), (3, 2, 2), (5, 2, 2)] {
-                if a + b + c > 2 * s + 1 {
-                    continue;
-                }
-                let monomial = |x: &[f64]| x[0].powi(a as i32) * x[1].powi(b as i32) * x[2].powi(c as i32);
-                let found: f64 = solid.iter().map(|(x, weight)| weight * monomial(x)).sum();
-                let exact = 6.0 * factorial(a) * factorial(b) * factorial(c) / factorial(a + b + c + 3);
-                assert!((found - exact).abs() < 1e-13, "{s}: {a} {b} {c}: {found} {exact}");
-                // Over a triangle, x^a y^(b + c) of its mean is 2 a! (b + c)! / (a + b + c + 2)!.
-                let monomial = |x: &[f64]| x[0].powi(a as i32) * x[1].powi((b + c) as i32);
-                let found: f64 = flat.iter().map(|(x, weight)| weight * monomial(x)).sum();
-                let exact = 2.0 * factorial(a) * factorial(b + c) / factorial(a + b + c + 2);
-                assert!((found - exact).abs() < 1e-13, "{s}: {a} {b} {c}: {found} {exact}");
-            }
-        }
-    }
-}

@@ -199,7 +199,7 @@ fn moves(motion: &Motion) -> bool {
 
 /// Position, m, velocity, m/s, and acceleration, m/s², at a time, s, of a node with the undeformed position X. `begin` is the start of
 /// the interval between two velocity jumps that holds `time`.
-pub(super) fn kinematics(motion: &Motion, X: &Vector3<f64>, begin: f64, time: f64) -> [Vector3<f64>; 3] {
+fn kinematics(motion: &Motion, X: &Vector3<f64>, begin: f64, time: f64) -> [Vector3<f64>; 3] {
     let Some(curve) = &motion.curve else { return [*X, Vector3::zeros(), Vector3::zeros()] };
     let fraction = curve.factor(time);
     // Between two kinks the curve is linear: its rate at the end of the interval is that at its begin.

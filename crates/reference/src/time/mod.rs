@@ -7,6 +7,4 @@ mod mass;
 
 pub use equations::{Equations, Phase, Scratch};
 pub use extrapolation::{Reference, SELF_CHECK, reference};
-
-#[cfg(test)]
-mod tests;
+pub use ldl::Ldl;

@@ -1,10 +1,10 @@
+//! References in time: closed forms, conservation, prescribed motion, and the integrators that approach them.
+
 use std::path::Path;
 
+use fem_reference::time::{Equations, Phase, SELF_CHECK, Scratch, reference};
 use fem_scene::{body, parse};
 use nalgebra::Vector3;
-
-use super::equations::kinematics;
-use super::*;
 
 fn equations(text: &str) -> Equations {
     let scene = parse(text, Path::new("folder/name.toml")).unwrap();
@@ -95,19 +95,48 @@ fn a_velocity_jump_gives_neighbours_an_impulse_through_the_consistent_mass() {
     assert!((found.q[15] - 2.0 - u).abs() < 1e-9, "{} {u}", found.q[15] - 2.0);
 }
 
+/// Prescribed displacements and velocities at a time of the interval that begins at another, zero elsewhere.
+fn prescribed(equations: &Equations, begin: f64, time: f64, scratch: &mut Scratch) -> Phase {
+    let mut phase = equations.start();
+    equations.prescribe(begin, time, &mut phase, scratch);
+    phase
+}
+
+/// Panics unless velocities and accelerations of the prescribed node 4 are differences of its displacements and velocities over a step h, up to
+/// these errors. The other nodes show its acceleration: nothing but their masses resists the motion.
+fn matches_differences(equations: &Equations, h: f64, errors: [f64; 2]) {
+    let node = equations.system.numbering.engine_node[4] as usize;
+    let mut scratch = Scratch::default();
+    let mut at = |time: f64| prescribed(equations, 0.0, time, &mut scratch).map(|of_all| Vector3::from(of_all[node]));
+    let (before, after) = (at(0.8 - h), at(0.8 + h));
+    let [velocity, acceleration] = [0, 1].map(|i| (after[i] - before[i]) / (2.0 * h));
+    let [u, v] = prescribed(equations, 0.0, 0.8, &mut scratch);
+    assert!((velocity - Vector3::from(v[node])).norm() < errors[0], "{velocity} {v:?}");
+    let (mut a, mut force, mut weight) = (vec![[0.0; 3]; 12], vec![[0.0; 3]; 12], vec![[0.0; 3]; 12]);
+    equations.accelerations(&u, &v, 0.8, &mut a, &mut scratch);
+    assert_eq!(a[node], [0.0; 3]);
+    a[node] = acceleration.into();
+    equations.system.mass.add_times(1.0, &a, &mut force);
+    let mut unit = vec![[0.0; 3]; 12];
+    unit[node] = [1.0; 3];
+    equations.system.mass.add_times(1.0, &unit, &mut weight);
+    let neighbours: Vec<usize> = (0..12).filter(|&other| other != node && weight[other][0] > 0.0).collect();
+    assert!(!neighbours.is_empty());
+    for other in neighbours {
+        let error = Vector3::from(force[other]).norm() / weight[other][0];
+        assert!(error < errors[1], "{error}: {acceleration} {a:?}");
+    }
+}
+
 #[test]
 fn prescribed_velocities_and_accelerations_match_finite_differences() {
     let equations = soft_box(
         "[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, -0.1, 0.4]\nover = 2.0\n\
          rotation = { axis = \"y\", center = [0.3, 0.1, 0.2], turns = 0.7 }\n",
     );
-    let motion = &equations.system.dirichlet.motions().next().unwrap().1;
-    let at = |time: f64| kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 0.0, time);
-    let (h, [_, v, a]) = (1e-4, at(0.8));
-    let (before, after) = (at(0.8 - h), at(0.8 + h));
-    assert!(((after[0] - before[0]) / (2.0 * h) - v).norm() < 1e-6);
-    assert!(((after[1] - before[1]) / (2.0 * h) - a).norm() < 1e-6);
-    assert_eq!(kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 2.0, 2.5)[1], Vector3::zeros());
+    matches_differences(&equations, 1e-4, [1e-6, 1e-6]);
+    let [_, v] = prescribed(&equations, 2.0, 2.5, &mut Scratch::default());
+    assert_eq!(v, vec![[0.0; 3]; 12]);
 }
 
 #[test]
@@ -133,12 +162,7 @@ fn a_motion_on_a_sine_has_the_velocities_of_the_sine() {
         "[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, 0, 0]\ncurve = { sine = { frequency = 0.7 } }\n\
          rotation = { axis = \"y\", center = [0.3, 0.1, 0.2], turns = 0.7 }\n",
     );
-    let motion = &equations.system.dirichlet.motions().next().unwrap().1;
-    let at = |time: f64| kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 0.0, time);
-    let (h, [_, v, a]) = (1e-5, at(0.8));
-    let (before, after) = (at(0.8 - h), at(0.8 + h));
-    assert!(((after[0] - before[0]) / (2.0 * h) - v).norm() < 1e-5);
-    assert!(((after[1] - before[1]) / (2.0 * h) - a).norm() < 1e-4);
+    matches_differences(&equations, 1e-5, [1e-5, 1e-4]);
 }
 
 #[test]
