@@ -96,7 +96,7 @@ impl<'a> Coarsened<'a> {
             .filter(|(_, element)| !element.contains(&to))
             .map(|&(i, element)| (i, element.map(|vertex| if vertex == from { to } else { vertex })))
             .collect();
-        let own: HashSet<usize> = star.iter().map(|&(i, _)| i).collect();
+        let own: Vec<usize> = star.iter().map(|&(i, _)| i).collect();
         if !kept.iter().all(|(_, element)| self.is_good(element, &own)) {
             return false;
         }
@@ -111,7 +111,7 @@ impl<'a> Coarsened<'a> {
     }
 
     /// Returns true if an element may replace the elements `own`.
-    fn is_good(&self, element: &[usize; 4], own: &HashSet<usize>) -> bool {
+    fn is_good(&self, element: &[usize; 4], own: &[usize]) -> bool {
         if element.contains(&BEYOND) {
             return self.is_free(face_of(element), own);
         }
@@ -125,7 +125,7 @@ impl<'a> Coarsened<'a> {
     }
 
     /// Returns true if a boundary triangle meets neither the walls nor, away from its own corners, the boundary.
-    fn is_free(&self, face: [usize; 3], own: &HashSet<usize>) -> bool {
+    fn is_free(&self, face: [usize; 3], own: &[usize]) -> bool {
         let corners = face.map(|vertex| self.vertices[vertex]);
         let Some(triangle) = Triangle::new(corners) else { return false };
         let meets_boundary = |&i: &usize| {
@@ -167,8 +167,13 @@ impl<'a> Coarsened<'a> {
 
 /// The corners of a boundary triangle.
 fn face_of(element: &[usize; 4]) -> [usize; 3] {
-    let mut face = element.iter().copied().filter(|&vertex| vertex != BEYOND);
-    [0; 3].map(|_| face.next().unwrap_or(BEYOND))
+    opposite(element, BEYOND)
+}
+
+/// The corners of an element but one.
+fn opposite(element: &[usize; 4], vertex: usize) -> [usize; 3] {
+    let mut face = element.iter().copied().filter(|&corner| corner != vertex);
+    [(); 3].map(|()| face.next().unwrap_or(BEYOND))
 }
 
 /// Cells of a grid that the box around a triangle touches.
@@ -179,30 +184,32 @@ fn cells(corners: &[Vector3<f64>; 3], side: f64) -> impl Iterator<Item = [i32; 3
         .flat_map(move |x| (least.y..=largest.y).flat_map(move |y| (least.z..=largest.z).map(move |z| [x, y, z])))
 }
 
+/// A vertex, an edge or a triangle: its corners in ascending order, the last one repeated.
+type Part = [usize; 3];
+
 /// The link condition: the collapse of an edge keeps the topology of a closed complex if the links of its ends have in common the link of
 /// the edge alone. Dey, Edelsbrunner, Guha and Nekhayev, Topology Preserving Edge Contraction (1999).
 fn is_linked(from: usize, to: usize, star: &[(usize, [usize; 4])], other: &[(usize, [usize; 4])]) -> bool {
-    let link = |vertex: usize, star: &[(usize, [usize; 4])]| {
-        let faces = star.iter().map(|(_, element)| {
-            let mut rest: Vec<usize> = element.iter().copied().filter(|&corner| corner != vertex).collect();
-            rest.sort_unstable();
-            rest
-        });
-        let mut parts = HashSet::new();
-        for face in faces {
-            parts.extend(face.iter().map(|&corner| vec![corner]));
-            parts.extend([[0, 1], [0, 2], [1, 2]].map(|[i, j]| vec![face[i], face[j]]));
-            parts.insert(face);
-        }
-        parts
-    };
-    let mut of_edge = HashSet::new();
+    let mut of_edge = Vec::new();
     for (_, element) in star.iter().filter(|(_, element)| element.contains(&to)) {
-        let mut rest: Vec<usize> = element.iter().copied().filter(|&corner| corner != from && corner != to).collect();
-        rest.sort_unstable();
-        of_edge.extend(rest.iter().map(|&corner| vec![corner]));
-        of_edge.insert(rest);
+        let mut rest = element.iter().copied().filter(|&corner| corner != from && corner != to);
+        let [i, j] = sorted([(); 2].map(|()| rest.next().unwrap_or(BEYOND)));
+        of_edge.extend([[i; 3], [j; 3], [i, j, j]]);
     }
-    let (a, b) = (link(from, star), link(to, other));
-    a.intersection(&b).all(|part| of_edge.contains(part))
+    let (own, others) = (link(from, star), link(to, other));
+    own.iter().all(|part| others.binary_search(part).is_err() || of_edge.contains(part))
+}
+
+/// The parts of the link of a vertex, in ascending order.
+fn link(vertex: usize, star: &[(usize, [usize; 4])]) -> Vec<Part> {
+    let parts = |(_, element): &(usize, [usize; 4])| {
+        let mut face = opposite(element, vertex);
+        face.sort_unstable();
+        let [i, j, k] = face;
+        [[i; 3], [j; 3], [k; 3], [i, j, j], [i, k, k], [j, k, k], face]
+    };
+    let mut link: Vec<Part> = star.iter().flat_map(parts).collect();
+    link.sort_unstable();
+    link.dedup();
+    link
 }
