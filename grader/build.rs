@@ -18,9 +18,11 @@ fn main() {
         rows.push_str(&format!("    ({function:?}, Check {{ name: {name:?}, run: check{index}::check }}),\n"));
     }
     let key = env::var("GRADER_CHECKS_KEY").unwrap_or_default();
+    let is_release = env::var("PROFILE").is_ok_and(|profile| profile == "release");
     let code = format!(
         "{modules}/// The checks, each with its function.\npub const OWN: &[(&str, Check)] = &[\n{rows}];\n\
-         /// Key of the sources that they were built from.\npub const KEY: &str = {key:?};\n"
+         /// Key of the sources that they were built from.\npub const KEY: &str = {key:?};\n\
+         /// True in a build with `--release`.\npub const IS_RELEASE: bool = {is_release};\n"
     );
     let folder = PathBuf::from(env::var_os("OUT_DIR").expect("cargo names a folder"));
     fs::write(folder.join("own_checks.rs"), code).expect("the folder can be written to");
