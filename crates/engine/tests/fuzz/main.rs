@@ -13,7 +13,7 @@ use fem_scene::{ResumeError, resume, write_state};
 use fem_scene::{Scene, parse};
 use tempfile::tempdir;
 
-use self::mutation::fuzz;
+use self::mutation::{fuzz, write_over};
 
 fn scene(integrator: &str, cells: usize) -> Scene {
     let text = format!(
@@ -56,11 +56,7 @@ fn mutated_states_are_taken_or_refused() {
             files.push(fs::read(&path).unwrap());
         }
         let simulation = RefCell::new(simulation);
-        let prepare = |bytes: &[u8]| {
-            // Written anew: a file system may wait for its disk when a file is emptied and written again.
-            let _ = fs::remove_file(&path);
-            fs::write(&path, bytes).unwrap();
-        };
+        let prepare = |bytes: &[u8]| write_over(&path, bytes);
         let read = |_: &()| resume(&path, &scene, &mut **simulation.borrow_mut());
         let go_on = |found: Result<(), ResumeError>| match found {
             Ok(()) => {

@@ -20,7 +20,7 @@ use flate2::write::GzEncoder;
 use nalgebra::{Vector2, Vector3};
 use tempfile::{TempDir, tempdir};
 
-use self::mutation::fuzz;
+use self::mutation::{fuzz, write_over};
 
 /// Files of other programs.
 fn others(ending: &str) -> Vec<Vec<u8>> {
@@ -102,14 +102,8 @@ fn fuzz_files(ending: &str, files: &[Vec<u8>], partner: Option<(&str, Vec<u8>)>)
         beside = bytes.len();
     }
     let size = |bytes: &[u8]| beside + if ending.ends_with(".gz") { unpacked(bytes) } else { bytes.len() };
-    let prepare = |bytes: &[u8]| write_anew(&path, bytes);
+    let prepare = |bytes: &[u8]| write_over(&path, bytes);
     fuzz(ending, files, size, prepare, |()| read(&path), go_on);
-}
-
-/// Writes a file that is no longer the one before: a file system may wait for its disk when a file is emptied and written again.
-fn write_anew(path: &Path, bytes: &[u8]) {
-    let _ = fs::remove_file(path);
-    fs::write(path, bytes).unwrap();
 }
 
 /// Bytes that a compressed file holds, as far as a reader unpacks them.
@@ -212,7 +206,7 @@ fn mutated_compressed_files_are_read_or_refused() {
 fn compressed_files_with_mutated_content_are_read_or_refused() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("m.msh.gz");
-    let prepare = |bytes: &[u8]| write_anew(&path, &packed(bytes));
+    let prepare = |bytes: &[u8]| write_over(&path, &packed(bytes));
     fuzz("msh in gz", &own("msh"), <[u8]>::len, prepare, |()| read(&path), go_on);
 }
 

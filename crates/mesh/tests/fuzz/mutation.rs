@@ -1,6 +1,9 @@
 //! Files that are broken in many ways, the same in every run, and the limits that a reader keeps to on each of them.
 
+use std::fs::File;
+use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -137,6 +140,14 @@ fn line(random: &mut Random, bytes: &mut Vec<u8>, from: usize) -> usize {
 pub fn bytes_to_mutate() -> usize {
     let is_long = std::env::var("FEM_TEST_EFFORT").is_ok_and(|effort| effort == "long");
     if is_long { 1_000_000 } else { 100_000 }
+}
+
+/// Writes a file's content over the one before. A file system may wait for its disk when a file is emptied and written again, and takes long
+/// to remove and to create one.
+pub fn write_over(path: &Path, bytes: &[u8]) {
+    let mut file = File::options().write(true).create(true).truncate(false).open(path).unwrap();
+    file.write_all(bytes).unwrap();
+    file.set_len(bytes.len() as u64).unwrap();
 }
 
 /// Calls `read` with mutations of the files until enough bytes have been mutated, and asserts that it does not panic, hang, or take

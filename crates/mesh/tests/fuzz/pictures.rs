@@ -9,8 +9,7 @@ use flate2::Crc;
 use image::{DynamicImage, GrayImage, ImageDecoder, ImageFormat, ImageReader, RgbImage, RgbaImage};
 use tempfile::tempdir;
 
-use super::mutation::fuzz;
-use super::write_anew;
+use super::mutation::{fuzz, write_over};
 
 /// Largest number of bytes of pixels for a byte of a file: deflate packs 1032 bytes into one, and those of one bit become four bytes
 /// for a pixel.
@@ -76,7 +75,7 @@ fn go_on(found: Result<Picture, PictureError>) {
     match found {
         Ok(picture) => {
             assert_eq!(picture.coverage.len(), picture.width * picture.height);
-            let edge = picture.width.max(picture.height) as f64 / 10.0;
+            let edge = picture.width.max(picture.height) as f64 / 5.0;
             let options = FromPicture { edge, height: picture.height as f64, improve: 1 };
             if picture.coverage.len() <= 5000
                 && let Ok(found) = mesh_picture(&picture, options)
@@ -97,7 +96,7 @@ fn mutated_pictures_are_read_or_refused() {
     let fuzz_pictures = |name: &str, files: &[Vec<u8>], mend: &dyn Fn(&[u8]) -> Vec<u8>| {
         let path = folder.path().join(name);
         let size = |bytes: &[u8]| unpacked(&mend(bytes));
-        let prepare = |bytes: &[u8]| write_anew(&path, &mend(bytes));
+        let prepare = |bytes: &[u8]| write_over(&path, &mend(bytes));
         fuzz(name, files, size, prepare, |()| read_picture(&path), go_on);
     };
     fuzz_pictures("m.png", &pngs(), &with_check_sums);

@@ -6,8 +6,9 @@ use fem_mesh::{AnyMesh, read_mesh};
 use nalgebra::Vector3;
 use tempfile::tempdir;
 
+use super::mutation::write_over;
 use super::mutation::{Random, bytes_to_mutate};
-use super::{others, own, text_ply, text_stl, write_anew};
+use super::{others, own, text_ply, text_stl};
 
 /// Breaks one line of a text: a word less or more, a line less or more, or a number that is 1 more or less. Returns the bytes that are
 /// touched, and `None` if nothing is changed.
@@ -65,7 +66,7 @@ fn check_rows(ending: &str, files: &[Vec<u8>], partner: Option<(&str, Vec<u8>)>,
     let whole: Vec<AnyMesh> = texts
         .iter()
         .map(|text| {
-            write_anew(&path, text.as_bytes());
+            write_over(&path, text.as_bytes());
             read_mesh(&path).unwrap()
         })
         .collect();
@@ -75,7 +76,7 @@ fn check_rows(ending: &str, files: &[Vec<u8>], partner: Option<(&str, Vec<u8>)>,
         let which = random.below(texts.len());
         let Some((text, bytes)) = break_row(&mut random, texts[which], rules) else { continue };
         mutated += bytes;
-        write_anew(&path, text.as_bytes());
+        write_over(&path, text.as_bytes());
         match read_mesh(&path) {
             Err(_) => refused += 1,
             Ok(found) => assert!(shape(&found) == shape(&whole[which]), "{ending}: another mesh from\n{text}"),

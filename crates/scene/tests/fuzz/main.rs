@@ -13,7 +13,7 @@ use fem_model::BodyMesh;
 use fem_scene::{Override, Scene, SceneError, body_of, load, load_with, warnings};
 use tempfile::tempdir;
 
-use self::mutation::fuzz;
+use self::mutation::{fuzz, write_over};
 
 /// Most memory for a scene file, as a multiple of it: TOML keeps each value in a tree of its own, with its place, beside the scene.
 const TOML: u64 = 128;
@@ -117,12 +117,6 @@ fn solid() -> TetrahedralMesh {
     box_mesh([2.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap()
 }
 
-/// Writes a file that is no longer the one before: a file system may wait for its disk when a file is emptied and written again.
-fn write_anew(path: &Path, bytes: &[u8]) {
-    let _ = fs::remove_file(path);
-    fs::write(path, bytes).unwrap();
-}
-
 #[test]
 fn the_scene_with_all_tables_is_read() {
     let folder = tempdir().unwrap();
@@ -137,7 +131,7 @@ fn the_scene_with_all_tables_is_read() {
 fn mutated_scenes_are_read_or_refused() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("m.toml");
-    let prepare = |bytes: &[u8]| write_anew(&path, bytes);
+    let prepare = |bytes: &[u8]| write_over(&path, bytes);
     let read = |_: &()| load(path.to_str().unwrap(), folder.path());
     fuzz("toml", &scenes(), <[u8]>::len, prepare, read, go_on);
 }
@@ -168,7 +162,7 @@ fn mutated_velocities_are_read_or_refused() {
     let rows: String =
         (0..nodes).map(|i| format!("{},{},{}\n", (i as f64).sin(), (2.5 * i as f64).cos(), -3e-4)).collect();
     let files = [rows.clone().into_bytes(), format!("x,y,z\n{rows}").into_bytes()];
-    let prepare = |bytes: &[u8]| write_anew(&velocities, bytes);
+    let prepare = |bytes: &[u8]| write_over(&velocities, bytes);
     let read = |_: &()| body_of(&scene, solid(), folder.path());
     let go_on = |found: Result<fem_model::Body, SceneError>| match found {
         Ok(body) => assert!(body.initial_velocity.iter().flatten().all(|x| x.is_finite())),

@@ -16,7 +16,7 @@ use grader::submission::{MAX_FILE_BYTES, NAMES, Source, Submission, Unreadable};
 use tempfile::tempdir;
 use zip::write::SimpleFileOptions;
 
-use self::mutation::fuzz;
+use self::mutation::{fuzz, write_over};
 use crate::archive::read_submission;
 use crate::assess::{ADJUSTMENTS, Adjustments, Metadata};
 use crate::class::{Index, find, regrade, store};
@@ -79,16 +79,10 @@ fn fuzz_text<R>(name: &str, text: &str, read: impl Fn(&Path) -> R, go_on: impl F
         name,
         &[text.as_bytes().to_vec()],
         <[u8]>::len,
-        |bytes| write_anew(&path, bytes),
+        |bytes| write_over(&path, bytes),
         |()| read(folder.path()),
         go_on,
     );
-}
-
-/// Writes a new file in place of the old one, because some file systems wait for the disk when a file is truncated and rewritten.
-fn write_anew(path: &Path, bytes: &[u8]) {
-    let _ = fs::remove_file(path);
-    fs::write(path, bytes).unwrap();
 }
 
 fn assert_told<T, E: Display>(found: Result<T, E>) -> Option<T> {
@@ -232,7 +226,7 @@ fn mutated_archives_are_read_or_refused() {
                 assert!(submission.functions.keys().all(|name| NAMES.contains(name)));
             }
         };
-        let prepare = |bytes: &[u8]| write_anew(&path, &mend(bytes));
+        let prepare = |bytes: &[u8]| write_over(&path, &mend(bytes));
         prepare(&file);
         let whole = read_submission(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(matches!(whole.functions["psi_neo_hookean"], Source::Written(_)), "{name}");
