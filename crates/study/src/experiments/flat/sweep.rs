@@ -4,6 +4,7 @@ use std::path::Path;
 
 use fem_chart::grid;
 use fem_engine::simulator::Simulator;
+use fem_mesh::Mesh;
 use fem_model::simulation::Simulation;
 use fem_model::{ContactPlane, Integrator, Method, Plasticity};
 use nalgebra::{Vector2, Vector3};
@@ -15,9 +16,10 @@ use crate::study::{Figure, Mark, Part, Result, Table};
 
 /// Length of the edges, m, for a height of 1 m.
 const EDGE: f64 = 0.1;
-/// Frames in a second, and the duration, s.
+/// Frames in a second.
 const FRAMES: f64 = 60.0;
-const DURATION: f64 = 2.0;
+/// Duration, s, also of the short version.
+const DURATIONS: [f64; 2] = [2.0, 0.75];
 /// Velocity at the start, m/s, and the distance of the floor below the body, m.
 const THROWN: [f64; 2] = [1.5, -8.0];
 const HEIGHT: f64 = 0.2;
@@ -49,10 +51,12 @@ type Measure = fn(&Thrown) -> f64;
 
 /// Throws the bunny with each value.
 pub fn run(data: &Path, quick: bool) -> Result<Part> {
+    let mesh = meshed(&picture(data, "bunny")?, EDGE, 5)?.mesh;
+    let duration = DURATIONS[usize::from(quick)];
     let mut found = Vec::new();
     for (parameter, (.., values, _)) in PARAMETERS.iter().enumerate() {
         for value in if quick { vec![values[0], values[3]] } else { values.to_vec() } {
-            found.push(thrown(data, parameter, value)?);
+            found.push(thrown(&mesh, duration, parameter, value)?);
         }
     }
     let of = |parameter: usize| found.iter().filter(move |run| run.parameter == parameter);
@@ -70,7 +74,7 @@ pub fn run(data: &Path, quick: bool) -> Result<Part> {
         let values: Vec<String> = of(parameter).map(|run| format!("{:.3}", measure(run))).collect();
         Mark::new(statement, values.join(", "), falls(parameter, measure, sign))
     });
-    let figures = (0..4).map(|parameter| figure(parameter, of(parameter))).collect::<Result<Vec<_>>>()?;
+    let figures = (0..4).map(|parameter| figure(parameter, duration, of(parameter))).collect::<Result<Vec<_>>>()?;
     let table = Table::of(
         "flat-sweep",
         &found,
@@ -93,18 +97,17 @@ fn named(parameter: usize) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") }
 }
 
-fn thrown(data: &Path, parameter: usize, value: f64) -> Result<Thrown> {
-    let mesh = meshed(&picture(data, "bunny")?, EDGE, 5)?.mesh;
+fn thrown(mesh: &Mesh<2, 3>, duration: f64, parameter: usize, value: f64) -> Result<Thrown> {
     let [yield_strain, creep, friction, damping] =
         [0, 1, 2, 3].map(|other| if other == parameter { value } else { PARAMETERS[other].3 });
     let method = Method::new(Integrator::ImplicitEuler, 1.0 / FRAMES);
     let floor = ContactPlane { friction, ..ContactPlane::new(Vector3::new(0.0, -HEIGHT, 0.0), Vector3::y()) };
-    let body = body(&mesh, LAME, damping / LAME)?.gravity([0.0, -9.81, 0.0])?;
+    let body = body(mesh, LAME, damping / LAME)?.gravity([0.0, -9.81, 0.0])?;
     let mut body = body.velocity([THROWN[0], THROWN[1], 0.0])?.obstacles(vec![floor], &method)?;
     body.plasticity = Some(Plasticity::Additive { yield_strain, creep, maximum: 0.5 });
     let mut simulation = Simulator::<f64>::new(body, &method)?;
     let start = middle(&simulation);
-    for _ in 0..(DURATION * FRAMES) as usize {
+    for _ in 0..(duration * FRAMES) as usize {
         step(&mut simulation).map_err(|problem| format!("{} = {value}: {problem}", PARAMETERS[parameter].0))?;
     }
     let strains = simulation.system().elements.plastic_strains().ok_or("the bunny has no plasticity")?;
@@ -125,7 +128,7 @@ fn middle(simulation: &Simulator<f64>) -> Vector2<f64> {
 }
 
 /// The ends of all runs of a parameter.
-fn figure<'a>(parameter: usize, runs: impl Iterator<Item = &'a Thrown>) -> Result<Figure> {
+fn figure<'a>(parameter: usize, duration: f64, runs: impl Iterator<Item = &'a Thrown>) -> Result<Figure> {
     let (name, ..) = PARAMETERS[parameter];
     let picture = |run: &Thrown| {
         let [left, right] = [-0.75, 0.75].map(|x| Vector2::new(run.end + x, -HEIGHT));
@@ -134,6 +137,6 @@ fn figure<'a>(parameter: usize, runs: impl Iterator<Item = &'a Thrown>) -> Resul
     };
     let pictures = runs.map(picture).collect::<Result<Vec<_>>>()?;
     let named = named(parameter);
-    let caption = format!("The bunny after {DURATION} s for values of {named}, and the way that it has gone.");
+    let caption = format!("The bunny after {duration} s for values of {named}, and the way that it has gone.");
     Ok(Figure::new(format!("flat-sweep-{name}"), grid(&named, 2, &pictures), caption))
 }

@@ -1,6 +1,8 @@
 //! The thesis' torus as tetrahedra: a closed surface filled by isosurface stuffing and improved, with a wanted number of elements.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
+use std::sync::{Mutex, PoisonError};
 
 use fem_mesh::generate::odt::improve_inside;
 use fem_mesh::generate::{Solid, stuff};
@@ -44,9 +46,21 @@ pub struct Torus {
 }
 
 impl Torus {
-    /// A torus with this number of elements within 5 %. A lattice of edges that fit gives few different numbers of elements on a body as
-    /// symmetric as a torus, so the lattice is also turned about the axis x.
+    /// A torus with this number of elements within 5 %; several parts need the same, which is searched for once.
     pub fn of_size(wanted: usize) -> Result<Self> {
+        static FOUND: Mutex<BTreeMap<usize, Torus>> = Mutex::new(BTreeMap::new());
+        let mut found = FOUND.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(torus) = found.get(&wanted) {
+            return Ok(torus.clone());
+        }
+        let torus = Self::search(wanted)?;
+        found.insert(wanted, torus.clone());
+        Ok(torus)
+    }
+
+    /// A lattice of edges that fit gives few different numbers of elements on a body as symmetric as a torus, so the lattice is also turned about
+    /// the axis x.
+    fn search(wanted: usize) -> Result<Self> {
         let mut best: Option<(f64, Self)> = None;
         let parts = (0..=16).map(|i| if i % 2 == 0 { 1.0 + 0.01 * i as f64 } else { 1.0 - 0.01 * i as f64 });
         'turns: for turn in [0.0, 0.3, 0.6, 0.9, 1.2, 1.5] {
