@@ -35,21 +35,21 @@ fn bunny_and_armadillo_have_one_material_and_the_bunny_is_twenty_times_as_large(
 fn the_bunny_survives_both_integrators() {
     for integrator in ["linearly_implicit_euler", "implicit_euler"] {
         let desk = Desk::new();
-        desk.run_well(&format!("bunny --headless --steps 300 --integrator {integrator} --stats s.json"));
+        desk.run_well(&format!("bunny --headless --steps 150 --integrator {integrator} --stats s.json"));
         assert_eq!(desk.json("s.json")["status"], "done");
         assert!(desk.json("s.json")["min_J"].as_f64().unwrap() > 0.8, "{integrator}");
     }
 }
 
 #[test]
-fn the_armadillo_survives_ten_seconds_of_implicit_euler() {
+fn the_armadillo_survives_four_seconds_of_implicit_euler() {
     let desk = Desk::new();
-    let outcome = desk.run_well("arma --headless --steps 1000 --stats s.json");
+    let outcome = desk.run_well("arma --headless --steps 400 --stats s.json");
     let stats = desk.json("s.json");
-    assert_eq!((&stats["status"], stats["steps"].as_u64()), (&"done".into(), Some(1000)));
+    assert_eq!((&stats["status"], stats["steps"].as_u64()), (&"done".into(), Some(400)));
     assert!(stats["min_J"].as_f64().unwrap() > 0.8, "{stats}");
     // It survives, but five Newton iterations do not converge, and the run says so.
-    assert!(stats["unconverged_steps"].as_u64().unwrap() > 500, "{stats}");
+    assert!(stats["unconverged_steps"].as_u64().unwrap() > 200, "{stats}");
     assert!(outcome.stdout.contains("steps ended before Newton's method had converged"), "{}", outcome.stdout);
     let outcome = desk.run_well("arma --headless --steps 50 --set drag.in_stiffness=true --stats s.json");
     assert_eq!(desk.json("s.json")["unconverged_steps"], 0);
@@ -111,8 +111,8 @@ fn an_ordinary_drag_explodes_under_linearly_implicit_euler_and_never_under_impli
     let mut free: Vec<usize> = shape.boundary.iter().flatten().copied().filter(|&node| mesh[node].y > 0.3).collect();
     free.sort_unstable();
     free.dedup();
-    for i in 0..10 {
-        let (node, angle) = (free[i * free.len() / 10], 0.6 * i as f64);
+    for i in 0..5 {
+        let (node, angle) = (free[i * free.len() / 5], 1.2 * i as f64);
         let direction = Vector3::new(angle.cos(), 0.2, angle.sin()).normalize();
         let survived = dragged(Integrator::LinearlyImplicitEuler, node, direction, 100);
         assert!(survived < 100, "drag {i} of node {node} survives a second");

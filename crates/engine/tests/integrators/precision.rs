@@ -19,7 +19,7 @@ fn ends(text: &str, steps: usize) -> [Box<dyn Simulation>; 2] {
 #[test]
 fn every_law_and_method_ends_where_double_precision_does() {
     for law in Law::FACTS.iter().map(|facts| &facts.name) {
-        for cells in [1, 2, 4] {
+        for cells in [1, 3] {
             for integrator in DYNAMIC.iter().chain(&["static"]) {
                 let dt = if integrator.ends_with("implicit_euler") && *integrator != "semi_implicit_euler" {
                     1e-2

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use fem_engine::simulator::{build, planned_parts};
 use fem_model::Integrator;
 use fem_model::simulation::{Part, Simulation};
-use fem_scene::{Pipeline, Scene, body, load, names};
+use fem_scene::{Pipeline, Scene, body, body_of_shape, load, names};
 
 /// The repository's `data`.
 pub fn data() -> PathBuf {
@@ -49,6 +49,7 @@ fn is_built_here(scene: &Scene) -> bool {
 fn the_planned_parts_of_every_scene_and_method_are_those_that_are_built() {
     let scenes = names(&data()).into_iter().map(|name| load(&name, &data()).unwrap());
     for scene in scenes.filter(is_built_here) {
+        let shape = body(&scene.environment(0), &data()).unwrap().shape;
         for integrator in Integrator::ALL {
             // That of a batch is the same for each of its environments.
             let mut scene = scene.environment(0);
@@ -62,7 +63,7 @@ fn the_planned_parts_of_every_scene_and_method_are_those_that_are_built() {
             if !scene.planes.is_empty() && scene.check().is_err() {
                 continue;
             }
-            let body = body(&scene, &data()).unwrap();
+            let body = body_of_shape(&scene, shape.clone(), &data()).unwrap();
             // A free body has no equilibrium.
             let Ok(planned) = planned_parts(&body, &scene.method()) else {
                 assert_eq!(integrator, Integrator::Static, "{}", scene.name);
