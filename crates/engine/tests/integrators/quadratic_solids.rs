@@ -255,7 +255,7 @@ fn a_bar_vibrates_at_its_frequency_with_either_mass() {
         let speed = (1e5 / 1.3 / 0.4 * 0.7 * 0.5 * 2.0_f64 / 1000.0).sqrt();
         let period = 8.0 / speed;
         let (mut before, mut crossings) = (0.0, Vec::new());
-        while crossings.len() < 2 {
+        while crossings.len() < 4 {
             run(&mut *simulation, 1);
             let v = simulation.velocities()[3 * end];
             if before < 0.0 && v >= 0.0 {
@@ -263,7 +263,7 @@ fn a_bar_vibrates_at_its_frequency_with_either_mass() {
             }
             before = v;
         }
-        let found = crossings[1] - crossings[0];
+        let found = (crossings[3] - crossings[0]) / 3.0;
         assert!((found / period - 1.0).abs() < accuracy, "{mass:?}: {found} {period}");
     }
 }
