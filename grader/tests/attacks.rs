@@ -52,7 +52,6 @@ fn spoil(room: &mut Classroom, reach: &str) {
         ("pick_nearest_vertices", "crashed", "std::process::abort()"),
         ("linearly_implicit_euler", "timed_out", "loop { std::hint::spin_loop() }"),
         ("dphi_linear_tetrahedron_dX", "failed", hostile::OWN_MEMORY),
-        ("dpsi_neo_hookean_dF", "timed_out", "loop { std::thread::sleep(std::time::Duration::from_secs(1000)) }"),
         ("d2psi_neo_hookean_dF2", "failed or timed_out", hostile::FORKS),
         ("T_linear_tetrahedron", "crashed or timed_out", hostile::MEMORY),
         ("build_skinning_matrix", "failed", hostile::FORGED_ROWS),
