@@ -99,3 +99,20 @@ fn neighbouring_tetrahedra_share_whole_faces_so_that_the_boundary_has_no_open_ed
         assert_eq!((found.open_edges, found.flipped_edges), (0, 0));
     }
 }
+
+#[test]
+fn a_box_without_an_inside_is_refused_and_parts_of_a_way_that_are_none_are_those_nearest() {
+    let outside = |part: f64, corners: [f64; 2]| {
+        let body = Implicit { is_inside: &|x| x.norm() < 2.5, exit: &|_, _| part };
+        stuff_implicit(&body, corners.map(Vector3::repeat), EDGE, 0)
+    };
+    for (given, part) in [(f64::NAN, 0.0), (-1.0, 0.0), (f64::NEG_INFINITY, 0.0), (7.0, 1.0), (f64::INFINITY, 1.0)] {
+        let mesh = outside(given, [-3.0, 3.0]).unwrap();
+        check(&mesh, "taken as another".as_ref()).unwrap();
+        assert_eq!(mesh, outside(part, [-3.0, 3.0]).unwrap(), "{given}");
+    }
+    for corners in [[3.0, -3.0], [f64::NAN, 3.0], [-3.0, f64::NAN], [f64::NEG_INFINITY, f64::INFINITY]] {
+        assert!(outside(0.5, corners).is_err(), "{corners:?}");
+    }
+    assert!(outside(0.5, [5.0, 9.0]).is_err());
+}

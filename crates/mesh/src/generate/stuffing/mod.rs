@@ -61,7 +61,8 @@ pub fn stuff_graded(
 pub struct Implicit<'a> {
     /// Returns true if a point, m, lies inside.
     pub is_inside: &'a dyn Fn(&Vector3<f64>) -> bool,
-    /// The part, from 0 to 1, of the way from a point inside to one outside that lies in the body.
+    /// The part of the way from a point inside to one outside that lies in the body; one that is not between 0 and 1 counts as the nearer of them,
+    /// NaN as 0.
     pub exit: &'a dyn Fn(&Vector3<f64>, &Vector3<f64>) -> f64,
 }
 
@@ -75,7 +76,11 @@ pub fn stuff_implicit(
     edge: f64,
     doublings: usize,
 ) -> Result<TetrahedralMesh, StuffingError> {
-    let empty = StuffingError::Empty { edge, size: (bounds[1] - bounds[0]).into() };
+    let size = bounds[1] - bounds[0];
+    let empty = StuffingError::Empty { edge, size: size.into() };
+    if !size.iter().all(|&size| size >= 0.0) {
+        return Err(empty);
+    }
     fill(lattice_of(bounds, edge)?, doublings, body, &|_| ()).ok_or(empty)
 }
 
@@ -91,7 +96,10 @@ fn fill(mut lattice: Lattice, doublings: usize, body: &Implicit, progress: Progr
         (body.is_inside)(point)
     });
     let octree = Octree::graded(&lattice, doublings);
-    lattice.cut(|_, [inside, outside]| (body.exit)(inside, outside));
+    lattice.cut(|_, [inside, outside]| {
+        let part = (body.exit)(inside, outside);
+        if part >= 0.0 { part.min(1.0) } else { 0.0 }
+    });
     lattice.warp();
     progress(0.5 * (1.0 + SIGNS));
     let mesh = stencils::fill(&lattice, &octree);
